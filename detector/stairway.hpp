@@ -24,16 +24,17 @@ struct Nosing {
 struct Stairway {
   StairwayKind kind = StairwayKind::Straight;
   StairwayDirection direction = StairwayDirection::Ascending;
-  double step_height = 0.0;          ///< vertical distance of neighbouring treads, h [m]
-  double step_depth = 0.0;           ///< horizontal distance of neighbouring nosings, d; on a spiral at mid width [m]
-  double width = 0.0;                ///< w [m]
-  double heading = 0.0;              ///< horizontal direction of ascent, counter-clockwise from x, (-pi, pi] [rad]
-  double turn_per_step = 0.0;        ///< the paper's delta phi; positive when the ascent turns left, 0 when straight [rad]
-  double step_height_sigma = 0.0;    ///< one standard deviation, from the fit [m]
-  double step_depth_sigma = 0.0;     ///< likewise [m]
-  double width_sigma = 0.0;          ///< likewise [m]
-  double heading_sigma = 0.0;        ///< likewise [rad]
-  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< the nosing where the robot meets the stairway, at `anchor_side` [m]
+  double step_height = 0.0;    ///< vertical distance of neighbouring treads, h [m]
+  double step_depth = 0.0;     ///< horizontal distance of neighbouring nosings, d; on a spiral at mid width [m]
+  double width = 0.0;          ///< w [m]
+  double heading = 0.0;        ///< horizontal direction of ascent, counter-clockwise from x, (-pi, pi] [rad]
+  double turn_per_step = 0.0;  ///< the paper's delta phi; positive when the ascent turns left, 0 when straight [rad]
+  double step_height_sigma = 0.0;  ///< one standard deviation, from the fit [m]
+  double step_depth_sigma = 0.0;   ///< likewise [m]
+  double width_sigma = 0.0;        ///< likewise [m]
+  double heading_sigma = 0.0;      ///< likewise [rad]
+  Eigen::Vector3d anchor =
+      Eigen::Vector3d::Zero();  ///< the nosing where the robot meets the stairway, at `anchor_side` [m]
   AnchorSide anchor_side = AnchorSide::Middle;
   bool railing_left = false;
   bool railing_right = false;

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detector/competition.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stairway::detect {
+namespace {
+
+// The robot stands on z = 0: what starts below that is looked down upon.
+View view_of(const StairModel& model) { return model.nosing.z() < 0.0 ? View::FromAbove : View::FromBelow; }
+
+Interval starting_side(const Initialisation& start, const std::vector<StairPart>& parts) {
+  const Eigen::Vector3d left = start.model.step(0).left();
+  const Interval a = part_extent(parts[start.parts[0]], left);
+  const Interval b = part_extent(parts[start.parts[1]], left);
+  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+class Competition {
+ public:
+  Competition(const std::vector<StairPart>& parts, const CompetitionOptions& options)
+      : parts_(parts), options_(options), taken_(parts.size(), false) {}
+
+  CompetitionResult run() {
+    const std::vector<Initialisation> starts = initialise_graphs(parts_, options_.initialisation);
+    if (options_.strategy == Strategy::Greedy) {
+      for (const Initialisation& start : starts)
+        if (std::optional<Winner> candidate = confirmed(start)) claim(std::move(*candidate));
+    } else {
+      choose_best(starts);
+    }
+    if (!result_.winners.empty()) result_.runner_up.reset();
+    std::stable_sort(result_.winners.begin(), result_.winners.end(),
+                     [](const Winner& a, const Winner& b) { return a.score > b.score; });
+    return std::move(result_);
+  }
+
+ private:
+  void choose_best(const std::vector<Initialisation>& starts) {
+    std::vector<Winner> candidates;
+    for (const Initialisation& start : starts)
+      if (std::optional<Winner> candidate = confirmed(start)) candidates.push_back(std::move(*candidate));
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Winner& a, const Winner& b) { return a.score > b.score; });
+    for (Winner& candidate : candidates) {
+      if (!is_free(candidate.graph)) continue;
+      if (options_.strategy == Strategy::Optimizing) optimise(candidate);
+      claim(std::move(candidate));
+    }
+  }
+
+  std::optional<Winner> confirmed(const Initialisation& start) {
+    if (taken_[start.parts[0]] || taken_[start.parts[1]]) return std::nullopt;
+    Winner candidate{.graph = {}, .view = view_of(start.model)};
+    candidate.graph =
+        extend_graph(start.model, starting_side(start, parts_), parts_, candidate.view, options_.extension);
+    if (!is_free(candidate.graph)) return std::nullopt;
+    if (const std::string rule = broken_rule(candidate.graph, options_.confirmation); !rule.empty()) {
+      remember(rule, candidate.graph);
+      return std::nullopt;
+    }
+    candidate.score = score(candidate.graph, parts_, candidate.view).total();
+    return candidate;
+  }
+
+  void optimise(Winner& winner) const {
+    const StairFit fit = fit_stairway(winner.graph, parts_, winner.view);
+    StairGraph extended = extend_graph(fit.model, winner.graph.side, parts_, winner.view, options_.extension);
+    if (!is_free(extended) || !broken_rule(extended, options_.confirmation).empty() ||
+        extended.seen_steps() < winner.graph.seen_steps())
+      return;
+    winner.graph = std::move(extended);
+    winner.sigmas = fit.sigmas;
+    winner.score = score(winner.graph, parts_, winner.view).total();
+  }
+
+  bool is_free(const StairGraph& graph) const {
+    return std::none_of(graph.parts.begin(), graph.parts.end(),
+                        [&](const GraphPart& entry) { return taken_[entry.part]; });
+  }
+
+  void claim(Winner winner) {
+    for (const GraphPart& entry : winner.graph.parts) taken_[entry.part] = true;
+    result_.winners.push_back(std::move(winner));
+  }
+
+  void remember(const std::string& rule, const StairGraph& graph) {
+    const int steps = graph.seen_steps();
+    if (steps <= most_steps_) return;
+    most_steps_ = steps;
+    const double slope = std::atan2(graph.model.height_m, graph.model.depth_m);
+    result_.runner_up = Rejection{.reason = rule,
+                                  .detail = "the best candidate has parts of " + std::to_string(steps) + " steps",
+                                  .figures = {{"steps", steps},
+                                              {"min_steps", options_.confirmation.min_steps},
+                                              {"step_height", graph.model.height_m},
+                                              {"step_depth", graph.model.depth_m},
+                                              {"pitch", slope},
+                                              {"x", graph.model.nosing.x()},
+                                              {"y", graph.model.nosing.y()},
+                                              {"z", graph.model.nosing.z()}}};
+  }
+
+  const std::vector<StairPart>& parts_;
+  const CompetitionOptions& options_;
+  std::vector<bool> taken_;
+  CompetitionResult result_;
+  int most_steps_ = 0;
+};
+
+}  // namespace
+
+std::string CompetitionOptions::problem() const {
+  for (const std::string& problem : {initialisation.problem(), extension.problem(), confirmation.problem()})
+    if (!problem.empty()) return problem;
+  return {};
+}
+
+CompetitionResult compete(const std::vector<StairPart>& parts, const CompetitionOptions& options) {
+  return Competition(parts, options).run();
+}
+
+}  // namespace stairway::detect

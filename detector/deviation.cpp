@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detector/deviation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stairway::detect {
+namespace {
+
+double excess(double value, double limit) { return std::max(value - limit, 0.0); }
+
+Deviation riser_deviation(const StairModel& model, const StepFrame& step, const StairPart& riser, View view) {
+  Deviation result;
+  result.depth_m = std::abs((step.nosing - riser.centroid).dot(step.descent));  // eq 5
+  const double top_est = step.nosing.z();                                       // eq 9, with z of P
+  const double bottom_est = top_est - model.height_m;                           // eq 10
+  if (view == View::FromBelow) {
+    result.height_m = std::abs(riser.top.z() - top_est);  // eq 11
+  } else {
+    result.height_m = excess(riser.top.z(), top_est) + excess(bottom_est, riser.bottom.z());  // eq 8
+  }
+  const double cosine = std::min(std::abs(step.descent.dot(riser.facing)), 1.0);
+  result.direction_rad = std::acos(cosine);  // eq 13; the printed one has the absolute value outside the arc cosine
+  return result;
+}
+
+Deviation tread_deviation(const StairModel& model, const StepFrame& step, const StairPart& tread, View view) {
+  Deviation result;
+  const Interval extent = part_extent(tread, step.descent);
+  const double front_est = step.nosing.dot(step.descent);
+  const double back_est = front_est - model.depth_m;
+  if (view == View::FromBelow) {
+    // Eq 16 read like eq 8: as printed, its two excesses would have opposite signs along one axis.
+    result.depth_m = excess(extent.high, front_est) + excess(back_est, extent.low);
+  } else {
+    result.depth_m = std::abs(extent.high - front_est);  // eq 17
+  }
+  const double surface = step.nosing.z() - (tread.from_below ? model.tread_thickness_m : 0.0);
+  result.height_m = std::abs(surface - tread.centroid.z());  // eq 19, with a unit vector and its absolute value
+  return result;
+}
+
+}  // namespace
+
+Interval part_extent(const StairPart& part, const Eigen::Vector3d& axis) {
+  Interval extent;
+  const double along_axis = std::abs(part.facing.dot(axis));
+  const bool depthwise = along_axis > std::sqrt(0.5);
+  const double one = (depthwise ? part.front : part.end_a).dot(axis);
+  const double other = (depthwise ? part.back : part.end_b).dot(axis);
+  extent.low = std::min(one, other);
+  extent.high = std::max(one, other);
+  return extent;
+}
+
+Deviation deviation(const StairModel& model, int number, const StairPart& part, View view) {
+  const StepFrame step = model.step(number);
+  return part.kind == StairPart::Kind::Riser ? riser_deviation(model, step, part, view)
+                                             : tread_deviation(model, step, part, view);
+}
+
+}  // namespace stairway::detect

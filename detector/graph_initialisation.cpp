@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detector/graph_initialisation.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "detector/deviation.hpp"
+
+namespace stairway::detect {
+namespace {
+
+// The underside of a tread hides its top; this is a common thickness, to be replaced by what the whole graph says.
+constexpr double kTypicalTreadThickness_m = 0.04;
+
+struct Pair {
+  const StairPart& lower;
+  const StairPart& upper;
+};
+
+double horizontal_distance(const Pair& pair) { return (pair.upper.centroid - pair.lower.centroid).head<2>().norm(); }
+
+bool side_by_side(const Pair& pair, const Eigen::Vector3d& descent, double min_overlap_m) {
+  const Eigen::Vector3d left = descent.cross(Eigen::Vector3d::UnitZ());
+  return overlap(part_extent(pair.lower, left), part_extent(pair.upper, left)) >= min_overlap_m;
+}
+
+Eigen::Vector3d towards_descent(const Eigen::Vector3d& direction, const Pair& pair) {
+  return direction.dot(pair.lower.centroid - pair.upper.centroid) < 0.0 ? Eigen::Vector3d(-direction) : direction;
+}
+
+StairModel model_at(const Pair& pair, double height, double depth, const Eigen::Vector3d& descent, double front,
+                    double top) {
+  Eigen::Vector3d nosing = 0.5 * (pair.lower.end_a + pair.lower.end_b);
+  nosing += descent * (front - nosing.dot(descent));
+  nosing.z() = top;
+  return {.height_m = height, .depth_m = depth, .descent = descent, .nosing = nosing};
+}
+
+std::vector<StairModel> from_risers(const Pair& pair, const InitialisationOptions& options) {
+  const double agreement = pair.lower.facing.dot(pair.upper.facing);
+  if (std::abs(agreement) < std::cos(options.max_riser_angle_rad)) return {};
+  const Eigen::Vector3d sum = pair.lower.facing + (agreement < 0.0 ? -1.0 : 1.0) * pair.upper.facing;
+  const Eigen::Vector3d s = towards_descent(sum.normalized(), pair);
+  const double depth = (pair.lower.centroid - pair.upper.centroid).dot(s);
+  const double front = pair.lower.centroid.dot(s);
+  const double h_tt = pair.upper.top.z() - pair.lower.top.z();
+  const double h_bb = pair.upper.bottom.z() - pair.lower.bottom.z();
+  return {model_at(pair, h_tt, depth, s, front, pair.lower.top.z()),
+          model_at(pair, h_bb, depth, s, front, pair.lower.bottom.z() + h_bb)};
+}
+
+std::vector<StairModel> from_treads(const Pair& pair) {
+  if (pair.lower.from_below != pair.upper.from_below) return {};
+  const double height = pair.upper.centroid.z() - pair.lower.centroid.z();
+  const double thickness = pair.lower.from_below ? kTypicalTreadThickness_m : 0.0;
+  const double top = pair.lower.centroid.z() + thickness;
+  std::vector<StairModel> models;
+  for (const StairPart* part : {&pair.lower, &pair.upper}) {
+    const Eigen::Vector3d s = towards_descent(part->facing, pair);
+    const Interval lower = part_extent(pair.lower, s);
+    const Interval upper = part_extent(pair.upper, s);
+    const double d_ff = lower.high - upper.high;
+    const double d_bb = lower.low - upper.low;
+    models.push_back(model_at(pair, height, d_ff, s, lower.high, top));
+    models.push_back(model_at(pair, height, d_bb, s, lower.low + d_bb, top));
+  }
+  for (StairModel& model : models) model.tread_thickness_m = thickness;
+  return models;
+}
+
+}  // namespace
+
+std::string InitialisationOptions::problem() const {
+  if (std::string problem = limits.problem(); !problem.empty()) return problem;
+  if (!(max_pair_distance_m > 0.0)) return "max_pair_distance_m must be greater than 0";
+  if (!(max_riser_angle_rad > 0.0 && max_riser_angle_rad < std::numbers::pi / 2))
+    return "max_riser_angle must lie between 0 and 90 degrees";
+  return {};
+}
+
+std::vector<Initialisation> initialise_graphs(const std::vector<StairPart>& parts,
+                                              const InitialisationOptions& options) {
+  // Edges of half-hidden parts misjudge h; the limits proper are put to the models.
+  constexpr double kEdgeSlack_m = 0.15;
+  std::vector<Initialisation> initialisations;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const Pair pair{parts[i], parts[k]};
+      const double rise = pair.upper.centroid.z() - pair.lower.centroid.z();
+      if (i == k || pair.lower.kind != pair.upper.kind || rise < 0.0 ||
+          rise > options.limits.max_height_m + kEdgeSlack_m || horizontal_distance(pair) > options.max_pair_distance_m)
+        continue;
+      const bool risers = pair.lower.kind == StairPart::Kind::Riser;
+      for (const StairModel& model : risers ? from_risers(pair, options) : from_treads(pair)) {
+        if (options.limits.allow(model.height_m, model.depth_m) &&
+            side_by_side(pair, model.descent, options.min_side_overlap_m))
+          initialisations.push_back({model, {i, k}});
+      }
+    }
+  }
+  return initialisations;
+}
+
+}  // namespace stairway::detect

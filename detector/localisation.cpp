@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detector/localisation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stairway::detect {
+namespace {
+
+constexpr double kGround_m = 0.0;
+
+struct Ends {
+  Interval side;
+  double sigma_m = 0.0;
+};
+
+// Parts are cut short by what hides them and hardly ever too long: the outer quartile of their ends is the stairway's.
+double outer_quartile(std::vector<double> ends, bool high) {
+  std::sort(ends.begin(), ends.end());
+  const auto from_outside = static_cast<std::size_t>(0.25 * static_cast<double>(ends.size() - 1));
+  return high ? ends[ends.size() - 1 - from_outside] : ends[from_outside];
+}
+
+double standard_error(const std::vector<double>& values) {
+  if (values.size() < 2) return 0.0;
+  const Eigen::Map<const Eigen::ArrayXd> array(values.data(), static_cast<Eigen::Index>(values.size()));
+  const double n = static_cast<double>(values.size());
+  return std::sqrt((array - array.mean()).square().sum() / (n - 1.0) / n);
+}
+
+Ends find_ends(const StairGraph& graph, const std::vector<StairPart>& parts, const Eigen::Vector3d& left) {
+  std::vector<double> rights;
+  std::vector<double> lefts;
+  for (const GraphPart& entry : graph.parts) {
+    const Interval extent = part_extent(parts[entry.part], left);
+    rights.push_back(extent.low);
+    lefts.push_back(extent.high);
+  }
+  return {.side = {outer_quartile(rights, false), outer_quartile(lefts, true)},
+          .sigma_m = std::hypot(standard_error(rights), standard_error(lefts))};
+}
+
+// The number of the step whose riser stands on the ground, if the way down to it is short enough to be believed.
+int first_step_number(const StairModel& model, int first_seen, const LocalisationOptions& options) {
+  const int on_ground = static_cast<int>(std::lround((kGround_m - model.nosing.z()) / model.height_m)) + 1;
+  return first_seen - on_ground > options.max_hidden_steps ? first_seen : on_ground;
+}
+
+}  // namespace
+
+std::string LocalisationOptions::problem() const {
+  return max_hidden_steps < 0 ? "max_hidden_steps must not be negative" : "";
+}
+
+Stairway localise(const Winner& winner, const std::vector<StairPart>& parts, const LocalisationOptions& options) {
+  const StairModel& model = winner.graph.model;
+  const Eigen::Vector3d left = model.step(0).left();
+  const Ends ends = find_ends(winner.graph, parts, left);
+
+  Stairway stairway;
+  stairway.kind = StairwayKind::Straight;
+  stairway.direction = winner.view == View::FromBelow ? StairwayDirection::Ascending : StairwayDirection::Descending;
+  stairway.step_height = model.height_m;
+  stairway.step_depth = model.depth_m;
+  stairway.width = ends.side.length();
+  stairway.heading = std::atan2(-model.descent.y(), -model.descent.x());
+  stairway.step_height_sigma = winner.sigmas.height_m;
+  stairway.step_depth_sigma = winner.sigmas.depth_m;
+  stairway.heading_sigma = winner.sigmas.heading_rad;
+  stairway.width_sigma = ends.sigma_m;
+  stairway.score = winner.score;
+
+  const int last = winner.graph.parts.back().step;
+  const int first = std::min(first_step_number(model, winner.graph.parts.front().step, options), last);
+  for (int number = first; number <= last; ++number) {
+    const Eigen::Vector3d nosing = model.step(number).nosing;
+    const Eigen::Vector3d on_axis = nosing - left * nosing.dot(left);
+    stairway.nosings.push_back({on_axis + left * ends.side.high, on_axis + left * ends.side.low});
+  }
+  const Nosing& meeting =
+      stairway.direction == StairwayDirection::Ascending ? stairway.nosings.front() : stairway.nosings.back();
+  stairway.anchor_side = AnchorSide::Middle;
+  stairway.anchor = 0.5 * (meeting.left + meeting.right);
+  return stairway;
+}
+
+}  // namespace stairway::detect

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detector/region_growing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace stairway::detect {
+namespace {
+
+constexpr std::uint8_t kFree = 0;
+constexpr std::uint8_t kListed = 1;  // waits in the comparison list of the region that grows now
+constexpr std::uint8_t kAssigned = 2;
+
+class RegionGrower {
+ public:
+  RegionGrower(const scan::PointCloud& cloud, const SurfaceNormals& surface, const CloudIndex& index,
+               const RegionGrowingOptions& options)
+      : cloud_(cloud),
+        surface_(surface),
+        index_(index),
+        options_(options),
+        min_cosine_(static_cast<float>(std::cos(options.max_normal_angle_rad))),
+        max_distance_(static_cast<float>(options.max_plane_distance_m)),
+        state_(cloud.points.size(), kFree) {}
+
+  bool is_free(std::uint32_t point) const { return state_[point] == kFree; }
+
+  /// Alg. 1, function REGION GROWING; the result stays valid until the next call.
+  const std::vector<std::uint32_t>& grow(std::uint32_t seed) {
+    region_.clear();
+    comparison_list_.clear();
+    center_ = cloud_.points[seed];
+    normal_sum_ = normal_ = surface_.normals[seed];
+    accept(seed);
+    for (std::size_t next = 0; next < comparison_list_.size(); ++next) {
+      const std::uint32_t point = comparison_list_[next];
+      // A refused point is free again: the region may come back to it with a better plane.
+      state_[point] = kFree;
+      if (complies(point)) accept(point);
+    }
+    return region_;
+  }
+
+ private:
+  bool complies(std::uint32_t point) const {
+    const float plane_distance = (center_ - cloud_.points[point]).dot(normal_);  // eq 1
+    return std::abs(plane_distance) < max_distance_ && std::abs(surface_.normals[point].dot(normal_)) > min_cosine_;
+  }
+
+  void accept(std::uint32_t point) {
+    state_[point] = kAssigned;
+    region_.push_back(point);
+    const auto count = static_cast<float>(region_.size());
+    center_ += (cloud_.points[point] - center_) / count;
+    const Eigen::Vector3f& normal = surface_.normals[point];
+    if (region_.size() > 1) normal_sum_ += normal.dot(normal_) < 0.0F ? Eigen::Vector3f(-normal) : normal;
+    normal_ = normal_sum_.normalized();
+
+    index_.nearest(cloud_.points[point], static_cast<std::size_t>(options_.num_neighbours) + 1, neighbours_);
+    for (const std::uint32_t neighbour : neighbours_) {
+      if (state_[neighbour] != kFree) continue;
+      state_[neighbour] = kListed;
+      comparison_list_.push_back(neighbour);
+    }
+  }
+
+  const scan::PointCloud& cloud_;
+  const SurfaceNormals& surface_;
+  const CloudIndex& index_;
+  const RegionGrowingOptions& options_;
+  const float min_cosine_;
+  const float max_distance_;
+
+  std::vector<std::uint8_t> state_;
+  std::vector<std::uint32_t> region_;
+  std::vector<std::uint32_t> comparison_list_;
+  std::vector<std::uint32_t> neighbours_;
+  Eigen::Vector3f center_ = Eigen::Vector3f::Zero();
+  Eigen::Vector3f normal_sum_ = Eigen::Vector3f::UnitZ();
+  Eigen::Vector3f normal_ = Eigen::Vector3f::UnitZ();
+};
+
+}  // namespace
+
+std::string RegionGrowingOptions::problem() const {
+  if (num_neighbours < 3) return "num_neighbours must be at least 3";
+  if (!(max_normal_angle_rad > 0.0 && max_normal_angle_rad < std::numbers::pi / 2))
+    return "max_normal_angle must lie between 0 and 90 degrees";
+  if (!(max_plane_distance_m > 0.0)) return "max_plane_distance_m must be greater than 0";
+  if (min_points < 3) return "min_points must be at least 3";
+  return {};
+}
+
+std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceNormals& surface,
+                                      const CloudIndex& index, const RegionGrowingOptions& options) {
+  std::vector<std::uint32_t> seeds(cloud.points.size());
+  std::iota(seeds.begin(), seeds.end(), 0U);
+  std::stable_sort(seeds.begin(), seeds.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return surface.variations[a] < surface.variations[b]; });
+
+  RegionGrower grower(cloud, surface, index, options);
+  std::vector<PlaneRegion> regions;
+  for (const std::uint32_t seed : seeds) {
+    if (!grower.is_free(seed)) continue;
+    const std::vector<std::uint32_t>& points = grower.grow(seed);
+    if (points.size() > static_cast<std::size_t>(options.min_points))
+      regions.push_back(make_region(cloud.points, points, surface.normals[seed].cast<double>()));
+  }
+  return regions;
+}
+
+}  // namespace stairway::detect

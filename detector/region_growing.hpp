@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "detector/cloud_index.hpp"
+#include "detector/normals.hpp"
+#include "detector/plane_region.hpp"
+
+namespace stairway::detect {
+
+struct RegionGrowingOptions {
+  int num_neighbours = 12;             ///< k of Alg. 1 [points], >= 3
+  double max_normal_angle_rad = 0.35;  ///< normal of a point against the region's [rad], in (0, pi/2)
+  double max_plane_distance_m = 0.03;  ///< point to region plane, eq 1 [m], > 0; three times the range noise
+  int min_points = 30;                 ///< a region must have more points than this (the paper's 30)
+
+  std::string problem() const;
+};
+
+/// Segments a cloud into planar regions by growing them from the flattest points over nearest neighbours.
+///
+/// Centre and normal of a region are updated with every point it gains.
+///
+/// @param cloud    finite points [m].
+/// @param surface  from estimate_normals(), in the order of `cloud`.
+/// @param index    neighbour index over the points of `cloud`.
+/// @return regions in the order of their seeds, each with the indices of its points; every point is in at most one.
+/// Cost: O(N k) after one neighbour query per assigned point.
+/// Method: Westfechtel et al. 2018, Alg. 1, eq 1.
+std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceNormals& surface,
+                                      const CloudIndex& index, const RegionGrowingOptions& options = {});
+
+}  // namespace stairway::detect

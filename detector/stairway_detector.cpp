@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detector/stairway_detector.hpp"
+
+#include <cmath>
+
+#include "detector/cloud_index.hpp"
+#include "detector/voxel_grid.hpp"
+
+namespace stairway::detect {
+namespace {
+
+std::vector<StairPart> find_parts(const scan::PointCloud& cloud, const std::vector<PlaneRegion>& regions,
+                                  const PlaneFinderOptions& options) {
+  std::vector<StairPart> parts;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    std::optional<StairPart> part = find_stair_part(cloud, regions[i], options);
+    if (!part) continue;
+    part->region = i;
+    part->point_count = regions[i].points.size();
+    parts.push_back(*part);
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::string DetectorOptions::problem() const {
+  if (!(voxel_m > 0.0)) return "voxel_m must be greater than 0";
+  for (const std::string& problem : {normals.problem(), region_growing.problem(), plane_finder.problem(),
+                                     competition.problem(), localisation.problem()})
+    if (!problem.empty()) return problem;
+  return {};
+}
+
+Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions& options,
+                           const StageListener& on_stage) {
+  const auto begin_stage = [&](std::string_view stage) {
+    if (on_stage) on_stage(stage);
+  };
+  begin_stage("voxel_grid");
+  const scan::PointCloud thinned = voxel_centroids(cloud, options.voxel_m);
+  begin_stage("normals");
+  const SurfaceNormals surface = estimate_normals(thinned, options.normals);
+  begin_stage("segmentation");
+  const CloudIndex index(thinned.points);
+  const std::vector<PlaneRegion> regions = grow_regions(thinned, surface, index, options.region_growing);
+  begin_stage("plane_finder");
+  const std::vector<StairPart> parts = find_parts(thinned, regions, options.plane_finder);
+  begin_stage("stair_graph");
+  const CompetitionResult competition = compete(parts, options.competition);
+  begin_stage("localisation");
+  Detection detection;
+  for (const Winner& winner : competition.winners)
+    detection.stairways.push_back(localise(winner, parts, options.localisation));
+  if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
+  return detection;
+}
+
+}  // namespace stairway::detect

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "detector/competition.hpp"
+#include "detector/localisation.hpp"
+#include "detector/normals.hpp"
+#include "detector/plane_finder.hpp"
+#include "detector/region_growing.hpp"
+#include "detector/stairway.hpp"
+#include "scan_assembly/point_cloud.hpp"
+
+namespace stairway::detect {
+
+struct DetectorOptions {
+  double voxel_m = 0.01;  ///< edge of the thinning cells [m], > 0; the paper's 1 cm
+  NormalOptions normals;
+  RegionGrowingOptions region_growing;
+  PlaneFinderOptions plane_finder;
+  CompetitionOptions competition;
+  LocalisationOptions localisation;
+
+  /// First problem found, worded for the person who set it; empty when usable.
+  std::string problem() const;
+};
+
+/// Called when a stage of the detector begins; whoever has a clock can time the stages with it.
+using StageListener = std::function<void(std::string_view stage)>;
+
+/// Finds the stairways in a cloud (the paper's Fig 4, from the input cloud to the localized stairway).
+///
+/// @param cloud  points in the `base` frame, z up, floor at z = 0 [m]; points that are not finite are ignored.
+/// @return stairways by falling score; when there is none, `rejected` says how far the best candidate came.
+/// Never throws on any cloud. Single-threaded; deterministic. Cost: O(N log N) in the number of points.
+Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions& options = {},
+                           const StageListener& on_stage = {});
+
+}  // namespace stairway::detect
