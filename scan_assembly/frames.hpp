@@ -16,14 +16,14 @@ namespace stairway::scan {
 struct MountOptions {
   double scan_plane_pitch_rad = 1.0471975511965976;  ///< front beam above the disk plane; -60 deg = mounted inverted,
                                                      ///< to look down stairs [rad], in (-pi/2, pi/2)
-  double scan_plane_roll_rad = 0.0;  ///< turn about the front beam, left side up [rad], in [-pi, pi]
-  double scan_plane_yaw_rad = 0.0;   ///< front beam left of the encoder index [rad], in [-pi, pi]
-  double lever_arm_x_m = 0.0;        ///< scanner origin in `disk` [m], within 1 m
-  double lever_arm_y_m = 0.0;        ///< likewise
-  double lever_arm_z_m = 0.0;        ///< likewise
-  double disk_x_m = 0.0;             ///< disk origin in `base` [m], within 10 m
-  double disk_y_m = 0.0;             ///< likewise
-  double disk_z_m = 0.5;             ///< likewise; with no lever arm the scanner's height above the floor
+  double scan_plane_roll_rad = 0.0;                  ///< turn about the front beam, left side up [rad], in [-pi, pi]
+  double scan_plane_yaw_rad = 0.0;                   ///< front beam left of the encoder index [rad], in [-pi, pi]
+  double lever_arm_x_m = 0.0;                        ///< scanner origin in `disk` [m], within 1 m
+  double lever_arm_y_m = 0.0;                        ///< likewise
+  double lever_arm_z_m = 0.0;                        ///< likewise
+  double disk_x_m = 0.0;                             ///< disk origin in `base` [m], within 10 m
+  double disk_y_m = 0.0;                             ///< likewise
+  double disk_z_m = 0.5;  ///< likewise; with no lever arm the scanner's height above the floor
 
   /// First problem found, worded for the person editing the file; empty when usable.
   std::string problem() const;

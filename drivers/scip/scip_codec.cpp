@@ -10,6 +10,8 @@ namespace {
 constexpr char kFirstCode = 0x30;
 constexpr std::size_t kMaxNumberLength = 5;
 
+bool is_printable(char c) { return c >= 0x20 && c <= 0x7E; }
+
 }  // namespace
 
 const char* to_string(ScipError error) {
@@ -100,6 +102,7 @@ tl::expected<KeyValue, ScipError> parse_key_value(std::string_view line) {
   const bool sum_fits = sum == line_sum(text) || sum == line_sum(line.substr(0, line.size() - 1)) ||
                         (text.find("<-") != std::string_view::npos && sum == line_sum(text.substr(0, text.find("<-"))));
   if (!sum_fits) return tl::unexpected(ScipError::BadSum);
+  if (!std::ranges::all_of(text, is_printable)) return tl::unexpected(ScipError::BadCharacter);
   return KeyValue{text.substr(0, colon), text.substr(colon + 1)};
 }
 

@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/scip/scip_session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "drivers/scip/scan_conversion.hpp"
+
+namespace stairway::drivers {
+namespace {
+
+constexpr int kProvenStream = 40;    // scans after which earlier failures are forgiven
+constexpr int kRepeatsToReport = 2;  // after the first: one repetition also comes from rounding
+constexpr int kMaxDoublings = 16;
+constexpr std::size_t kMaxQuote = 32;
+
+HostStamp to_ns(double seconds) { return std::llround(seconds * 1e9); }
+
+double scan_period_ns(const SensorParameters& sensor, int skip_scan) {
+  return 60e9 / sensor.scan_speed_rpm * (skip_scan + 1);
+}
+
+bool is_unknown_command(std::string_view status) { return status == "0D" || status == "0E"; }
+
+bool is_between(std::string_view status, std::string_view low, std::string_view high) {
+  return status >= low && status <= high;
+}
+
+}  // namespace
+
+ScipSession::ScipSession(const ScipOptions& options)
+    : options_(options), clock_(options.clock, scan_period_ns(SensorParameters{}, options.skip_scan)) {}
+
+std::vector<ScipEvent> ScipSession::on_bytes(std::string_view bytes, HostStamp arrival_ns) {
+  if (step_ == Step::Start) enter(Step::Drain, arrival_ns);
+  const bool is_deaf = step_ == Step::Drain || step_ == Step::DrainReset || step_ == Step::Backoff;
+  if (!is_deaf) {
+    framer_.add(bytes, arrival_ns, [&](const ScipBlock& block) { on_block(block, arrival_ns); });
+    if (framer_.overflows() != overflows_) report(ScipTrouble::Overflow, "bytes without an end of message dropped");
+    overflows_ = framer_.overflows();
+  } else if (step_ != Step::Backoff && !bytes.empty()) {
+    deadline_ns_ = std::min(arrival_ns + to_ns(options_.drain_silence_s), drain_end_ns_);
+  }
+  return on_time(arrival_ns);
+}
+
+std::vector<ScipEvent> ScipSession::on_time(HostStamp now_ns) {
+  if (step_ == Step::Start) {
+    enter(Step::Drain, now_ns);
+  } else if (now_ns >= deadline_ns_) {
+    on_deadline(now_ns);
+  }
+  return take_events();
+}
+
+std::vector<ScipEvent> ScipSession::on_disconnect(HostStamp now_ns, std::string_view detail) {
+  report(ScipTrouble::Disconnected, std::string(detail));
+  output_.clear();
+  ++failures_;
+  back_off(now_ns);
+  return take_events();
+}
+
+std::string ScipSession::take_output() { return std::exchange(output_, {}); }
+
+ScipState ScipSession::state() const {
+  if (step_ == Step::Backoff) return ScipState::Backoff;
+  return step_ == Step::Stream ? ScipState::Streaming : ScipState::Opening;
+}
+
+void ScipSession::enter(Step step, HostStamp now_ns) {
+  const ScipState old_state = state();
+  const bool is_first = step_ == Step::Start;
+  step_ = step;
+  if (is_first || state() != old_state) events_.emplace_back(ScipStateEvent{state()});
+  is_pausing_ = false;
+  attempts_ = 0;
+  if (step == Step::Drain || step == Step::DrainReset) {
+    framer_.clear();
+    drain_end_ns_ = now_ns + to_ns(options_.max_drain_s);
+    deadline_ns_ = now_ns + to_ns(options_.drain_silence_s);
+  } else if (step != Step::Stream && step != Step::Backoff) {
+    if (step == Step::StartStream) prepare_stream();
+    command_ = command_for(step);
+    send(now_ns);
+  }
+}
+
+void ScipSession::advance(HostStamp now_ns) {
+  const bool is_short_cut = is_reattaching_ && step_ == Step::Quit;
+  enter(is_short_cut ? Step::StartStream : static_cast<Step>(static_cast<int>(step_) + 1), now_ns);
+}
+
+std::string ScipSession::command_for(Step step) const {
+  switch (step) {
+    case Step::Quit:
+      return "QT";
+    case Step::LeaveTimeMode:
+      return "TM2";
+    case Step::Reset:
+    case Step::ResetAgain:
+      return "RS";
+    case Step::AskVersion:
+      return "VV";
+    case Step::AskParameters:
+      return "PP";
+    case Step::AskState:
+      return "II";
+    case Step::LaserOn:
+      return "BM";
+    case Step::StartStream:
+      return to_command(request_);
+    default:
+      return {};
+  }
+}
+
+void ScipSession::send(HostStamp now_ns) {
+  ++attempts_;
+  is_pausing_ = false;
+  // An empty command ends whatever stands half-read at the sensor.
+  if (step_ == Step::Quit) output_.push_back('\n');
+  output_.append(command_).push_back('\n');
+  deadline_ns_ = now_ns + to_ns(options_.command_timeout_s);
+}
+
+void ScipSession::send_again(HostStamp now_ns) {
+  const int limit = step_ == Step::LaserOn ? options_.laser_attempts : options_.command_attempts;
+  if (attempts_ < limit) {
+    send(now_ns);
+  } else if (step_ == Step::LeaveTimeMode || step_ == Step::Reset) {
+    advance(now_ns);
+  } else {
+    ++failures_;
+    back_off(now_ns);
+  }
+}
+
+void ScipSession::on_deadline(HostStamp now_ns) {
+  switch (step_) {
+    case Step::Drain:
+    case Step::DrainReset:
+      return advance(now_ns);
+    case Step::Backoff:
+      return enter(Step::Drain, now_ns);
+    case Step::Stream:
+      report(ScipTrouble::Silence, "no scan for too long, restarting the stream");
+      return restart_stream(now_ns);
+    default:
+      if (!is_pausing_) report(ScipTrouble::NoReply, command_ + " was not answered");
+      return send_again(now_ns);
+  }
+}
+
+void ScipSession::on_block(const ScipBlock& block, HostStamp now_ns) {
+  if (step_ == Step::Stream) return on_stream_block(block, now_ns);
+  const bool is_deaf = step_ == Step::Drain || step_ == Step::DrainReset || step_ == Step::Backoff;
+  // Scans of the stream that QT is to end, and late answers, are nobody's business here.
+  if (is_deaf || is_pausing_) return;
+  if (const auto reply = find_reply(block.text, command_)) on_reply(*reply, now_ns);
+}
+
+void ScipSession::on_reply(const ScipReply& reply, HostStamp now_ns) {
+  switch (step_) {
+    case Step::Quit:
+    case Step::LeaveTimeMode:
+    case Step::Reset:
+      return advance(now_ns);
+    case Step::LaserOn:
+      return on_laser_reply(reply.status, now_ns);
+    case Step::StartStream:
+      if (reply.status == "00" || reply.status == "99") return begin_stream(now_ns);
+      break;
+    default:
+      if (reply.status == "00") return on_setup_reply(reply, now_ns);
+      if (!is_unknown_command(reply.status)) break;
+      report_refusal(reply.status);
+      if (step_ == Step::AskParameters) device_.parameters = {};
+      return advance(now_ns);
+  }
+  report_refusal(reply.status);
+  ++failures_;
+  back_off(now_ns);
+}
+
+void ScipSession::on_setup_reply(const ScipReply& reply, HostStamp now_ns) {
+  const auto take = [&](auto parsed, auto& field) {
+    if (parsed) field = std::move(*parsed);
+    if (!parsed) report(ScipTrouble::Corrupt, "reply to " + command_ + ": " + to_string(parsed.error()));
+    return parsed.has_value();
+  };
+  bool is_taken = true;
+  if (step_ == Step::AskVersion) is_taken = take(parse_version(reply.data), device_.version);
+  if (step_ == Step::AskParameters) is_taken = take(parse_parameters(reply.data), device_.parameters);
+  if (step_ == Step::AskState) is_taken = take(parse_state(reply.data), device_.state);
+  if (!is_taken) return send_again(now_ns);
+
+  if (step_ == Step::ResetAgain) {
+    unwrapper_.clear();
+    clock_.reset();
+  }
+  const bool is_faulty = step_ == Step::AskState && !device_.state.is_healthy();
+  if (step_ == Step::AskState) events_.emplace_back(device_);
+  if (!is_faulty) return advance(now_ns);
+  report(ScipTrouble::SensorFault, "the sensor says \"" + device_.state.status + "\"; switch its power off and on");
+  ++failures_;
+  back_off(now_ns);
+}
+
+void ScipSession::on_laser_reply(std::string_view status, HostStamp now_ns) {
+  if (status == "00" || status == "02") return advance(now_ns);
+  if (status == "01") {
+    report(ScipTrouble::SensorFault, "the laser does not work; switch the sensor's power off and on");
+    ++failures_;
+    return back_off(now_ns);
+  }
+  report_refusal(status);
+  // MD switches the laser on by itself.
+  if (is_unknown_command(status)) return advance(now_ns);
+  is_pausing_ = true;
+  deadline_ns_ = now_ns + to_ns(options_.laser_retry_s);
+}
+
+void ScipSession::prepare_stream() {
+  request_ = make_request(options_, device_.parameters);
+  const double period_ns = scan_period_ns(device_.parameters, options_.skip_scan);
+  if (period_ns != clock_.nominal_period_ns()) clock_.set_nominal_period(period_ns);
+}
+
+void ScipSession::begin_stream(HostStamp now_ns) {
+  good_scans_ = 0;
+  last_stamp_ms_ = -1;
+  enter(Step::Stream, now_ns);
+  // The mirror may still be getting up to speed.
+  deadline_ns_ = now_ns + std::max(watchdog_ns(), to_ns(options_.command_timeout_s));
+}
+
+void ScipSession::on_stream_block(const ScipBlock& block, HostStamp now_ns) {
+  auto reply = parse_reply(block.text);
+  bool is_first_in_block = true;
+  if (!reply || reply->echo != command_) {
+    if (reply) report(ScipTrouble::Unexpected, "reply to " + std::string(reply->echo.substr(0, kMaxQuote)));
+    if (!reply) report(ScipTrouble::Corrupt, std::string("message: ") + to_string(reply.error()));
+    reply = find_reply(block.text, command_);
+    is_first_in_block = false;
+  }
+  if (!reply) return;
+  if (reply->status != "99") return on_stream_status(reply->status, now_ns);
+
+  auto decoded = decode_scan(reply->data, request_, raw_);
+  if (!decoded) {
+    report(ScipTrouble::Corrupt, std::string("scan: ") + to_string(decoded.error()));
+    const auto later_reply = find_reply(reply->data, command_);
+    if (!later_reply || later_reply->status != "99") return;
+    decoded = decode_scan(later_reply->data, request_, raw_);
+    is_first_in_block = false;
+  }
+  if (decoded) accept_scan(block.arrival_ns, block.is_arrival_exact && is_first_in_block, now_ns);
+}
+
+void ScipSession::on_stream_status(std::string_view status, HostStamp now_ns) {
+  if (status == "00") return;
+  if (is_between(status, "21", "49")) {
+    report(ScipTrouble::SelfCheck, "status " + std::string(status) + " in the stream, waiting");
+    deadline_ns_ = std::max(deadline_ns_, now_ns + to_ns(options_.self_check_s));
+  } else if (status == "98") {
+    deadline_ns_ = now_ns + watchdog_ns();
+  } else {
+    const bool is_fault = is_between(status, "50", "97");
+    report(is_fault ? ScipTrouble::SensorFault : ScipTrouble::Refused,
+           "status " + std::string(status) + " in the stream, restarting it");
+    restart_stream(now_ns);
+  }
+}
+
+void ScipSession::accept_scan(HostStamp arrival_ns, bool is_arrival_exact, HostStamp now_ns) {
+  const auto stamp = unwrapper_.unwrap(raw_.stamp_ms);
+  if (stamp.is_reset) {
+    report(ScipTrouble::ClockReset, "device stamp " + std::to_string(stamp.stamp_ms) + " ms");
+    clock_.reset();
+  }
+  repeated_stamps_ = stamp.stamp_ms == last_stamp_ms_ ? repeated_stamps_ + 1 : 0;
+  if (repeated_stamps_ == kRepeatsToReport) {
+    report(ScipTrouble::RepeatedStamp, "device stamp " + std::to_string(stamp.stamp_ms) + " ms");
+  }
+  last_stamp_ms_ = stamp.stamp_ms;
+
+  const ScanTime time = clock_.add(stamp.stamp_ms, arrival_ns, is_arrival_exact);
+  events_.emplace_back(
+      to_laser_scan(raw_, request_, device_.parameters, stamp.stamp_ms, time, options_.stamp_reference));
+  ++counters_.scans;
+  if (++good_scans_ >= kProvenStream) failures_ = 0;
+  deadline_ns_ = now_ns + watchdog_ns();
+}
+
+void ScipSession::restart_stream(HostStamp now_ns) {
+  if (++failures_ >= options_.restarts_before_reopen) return back_off(now_ns);
+  is_reattaching_ = true;
+  enter(Step::Quit, now_ns);
+}
+
+void ScipSession::back_off(HostStamp now_ns) {
+  is_reattaching_ = false;
+  if (failures_ >= options_.restarts_before_reopen) events_.emplace_back(ScipReopenEvent{});
+  enter(Step::Backoff, now_ns);
+  const int doublings = std::clamp(failures_ - 1, 0, kMaxDoublings);
+  deadline_ns_ = now_ns + to_ns(std::min(options_.max_backoff_s, std::ldexp(options_.min_backoff_s, doublings)));
+}
+
+void ScipSession::report(ScipTrouble trouble, std::string detail) {
+  ++counters_.troubles[static_cast<std::size_t>(trouble)];
+  events_.emplace_back(ScipTroubleEvent{trouble, std::move(detail)});
+}
+
+void ScipSession::report_refusal(std::string_view status) {
+  report(ScipTrouble::Refused, command_ + " was answered with status " + std::string(status));
+}
+
+HostStamp ScipSession::watchdog_ns() const {
+  return std::llround(3.0 * scan_period_ns(device_.parameters, options_.skip_scan)) + to_ns(options_.watchdog_margin_s);
+}
+
+std::vector<ScipEvent> ScipSession::take_events() { return std::exchange(events_, {}); }
+
+}  // namespace stairway::drivers

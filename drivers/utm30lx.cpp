@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/utm30lx.hpp"
+
+#include <algorithm>
+#include <string>
+#include <thread>
+#include <utility>
+#include <variant>
+
+namespace stairway::drivers {
+namespace {
+
+using std::chrono::nanoseconds;
+
+nanoseconds time_until(HostStamp deadline_ns, HostStamp now_ns, nanoseconds limit) {
+  if (deadline_ns <= now_ns) return nanoseconds::zero();
+  return std::min(limit, nanoseconds(deadline_ns - now_ns));
+}
+
+void append(std::vector<ScipEvent>& events, std::vector<ScipEvent> more) {
+  std::ranges::move(more, std::back_inserter(events));
+}
+
+const char* describe(PortError error) { return error == PortError::Closed ? "port closed" : "port failed"; }
+
+}  // namespace
+
+Utm30lx::Utm30lx(PortOpener open_port, Clock now, const ScipOptions& options)
+    : open_port_(std::move(open_port)), now_(std::move(now)), session_(options) {}
+
+Utm30lx::~Utm30lx() {
+  if (port_) static_cast<void>(port_->write(ScipSession::stop_command()));
+}
+
+std::vector<ScipEvent> Utm30lx::poll(nanoseconds timeout) {
+  if (!port_) return open(timeout);
+  const auto chunk = port_->read(time_until(session_.deadline(), now_(), timeout));
+  if (!chunk) {
+    port_.reset();
+    return session_.on_disconnect(now_(), describe(chunk.error()));
+  }
+  std::vector<ScipEvent> events =
+      chunk->bytes.empty() ? session_.on_time(chunk->arrival_ns) : session_.on_bytes(chunk->bytes, chunk->arrival_ns);
+  const auto is_reopen = [](const ScipEvent& event) { return std::holds_alternative<ScipReopenEvent>(event); };
+  if (std::ranges::any_of(events, is_reopen)) {
+    port_.reset();
+    return events;
+  }
+  send_output(events);
+  return events;
+}
+
+std::vector<ScipEvent> Utm30lx::open(nanoseconds timeout) {
+  if (const nanoseconds wait = time_until(session_.deadline(), now_(), timeout); wait > nanoseconds::zero()) {
+    std::this_thread::sleep_for(wait);
+    return {};
+  }
+  port_ = open_port_();
+  if (!port_) return session_.on_disconnect(now_(), "device not found or not accessible");
+  std::vector<ScipEvent> events = session_.on_time(now_());
+  send_output(events);
+  return events;
+}
+
+void Utm30lx::send_output(std::vector<ScipEvent>& events) {
+  const std::string output = session_.take_output();
+  if (output.empty()) return;
+  const auto sent = port_->write(output);
+  if (sent) return;
+  port_.reset();
+  append(events, session_.on_disconnect(now_(), describe(sent.error())));
+}
+
+}  // namespace stairway::drivers
