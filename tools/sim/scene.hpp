@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "detector/stairway.hpp"
+#include "tools/sim/furniture.hpp"
+#include "tools/sim/mesh.hpp"
+#include "tools/sim/stair_spec.hpp"
+
+namespace stairway::sim {
+
+/// Floor, four walls and ceiling around the robot, who stands at x = y = z = 0 and looks along x [m].
+struct Room {
+  Eigen::Vector2d low{-4.0, -4.0};
+  Eigen::Vector2d high{8.0, 4.0};
+  double height_m = 2.8;
+};
+
+/// What a scene consists of, before it is built.
+struct SceneSpec {
+  std::string name;
+  Room room;
+  std::vector<StairSpec> stairs;
+  std::vector<Furniture> furniture;
+
+  /// First problem found, worded for the person who wrote the scene; empty when it can be built.
+  std::string problem() const;
+};
+
+/// What the scanner can see, and what there is to find.
+struct Scene {
+  std::string name;
+  Mesh mesh;                             ///< scene frame = `base` of a robot that stands level [m]
+  std::vector<detect::Stairway> truths;  ///< in the order of the specification
+};
+
+/// Builds the meshes. A descending flight gets an opening in the floor with a shaft below it, and an ascending flight
+/// that comes nearer to the ceiling than headroom allows one in the ceiling. Throws std::invalid_argument with
+/// problem().
+Scene build_scene(const SceneSpec& spec);
+
+}  // namespace stairway::sim
