@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "detector/stairway.hpp"
+#include "drivers/types.hpp"
+
+/// The contents of the LCM messages in the program's own types. Every `utime_us` is in microseconds since the epoch;
+/// which instant it means stands at the field of the same name in ipc/types/*.lcm.
+namespace stairway::ipc {
+
+/// scan_t
+struct ScanMessage {
+  std::int64_t utime_us = 0;
+  drivers::LaserScan scan;
+  double disk_angle_start_rad = 0.0;  ///< disk angle at the first beam, not wrapped [rad]
+  double disk_angle_end_rad = 0.0;    ///< disk angle at the last beam [rad]
+  bool disk_angle_valid = false;
+};
+
+enum class DiskFault { None, Encoder, Motor };
+
+/// disk_t
+struct DiskMessage {
+  std::int64_t utime_us = 0;
+  drivers::AngleSample sample;
+  double speed_rad_s = 0.0;  ///< positive counter-clockwise from above [rad/s]
+  std::int64_t index_count = 0;
+  DiskFault fault = DiskFault::None;
+  std::string fault_text;
+};
+
+/// stairways_t
+struct StairwaysMessage {
+  std::int64_t utime_us = 0;
+  std::int64_t sweep_start_utime_us = 0;
+  std::int64_t sweep = 0;
+  bool is_final = true;
+  detect::Detection detection;
+  std::vector<std::int64_t> track_ids;  ///< one per stairway; missing ones count as 0, not tracked
+};
+
+/// health_t
+struct HealthMessage {
+  std::int64_t utime_us = 0;
+  std::string state;
+  std::int64_t sweep = 0;
+  double sweep_progress = 0.0;  ///< 0..1
+  double scan_rate_hz = 0.0;
+  double disk_rate_hz = 0.0;
+  std::int64_t points = 0;
+  std::vector<std::pair<std::string, std::int64_t>> drops;
+};
+
+/// settings_t
+struct SettingsMessage {
+  std::int64_t utime_us = 0;
+  std::string version;
+  std::string toml;
+};
+
+}  // namespace stairway::ipc
