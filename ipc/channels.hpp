@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace stairway::ipc {
+
+/// Where messages go and what their channels are called.
+struct BusOptions {
+  std::string url = "udpm://239.255.76.67:7667?ttl=0";  ///< LCM provider; ttl=0 keeps messages on this host
+  std::string channel_prefix = "STAIRWAY_";             ///< in front of every channel name; tells several robots apart
+
+  /// First problem found, worded for the person who set it; empty when usable.
+  std::string problem() const;
+};
+
+/// The names of the channels; the type of each is in ipc/types.
+struct Channels {
+  explicit Channels(const std::string& prefix = BusOptions{}.channel_prefix)
+      : scan(prefix + "SCAN"),
+        disk(prefix + "DISK"),
+        stairways(prefix + "STAIRWAYS"),
+        health(prefix + "HEALTH"),
+        settings(prefix + "SETTINGS") {}
+
+  std::string scan;       ///< scan_t
+  std::string disk;       ///< disk_t
+  std::string stairways;  ///< stairways_t
+  std::string health;     ///< health_t
+  std::string settings;   ///< settings_t
+};
+
+}  // namespace stairway::ipc
