@@ -46,7 +46,7 @@ class Competition {
                      [](const Winner& a, const Winner& b) { return a.score > b.score; });
     for (Winner& candidate : candidates) {
       if (!is_free(candidate.graph)) continue;
-      if (options_.strategy == Strategy::Optimizing) optimise(candidate);
+      if (options_.strategy != Strategy::Thorough) optimise(candidate);
       claim(std::move(candidate));
     }
   }

@@ -17,10 +17,11 @@ enum class Strategy {
   Greedy,      ///< the first confirmed graph keeps its parts
   Thorough,    ///< all are extended and scored; the best keeps its parts
   Optimizing,  ///< thorough, then the winner is fitted (eq 20) and extended once more
+  Joint,       ///< optimizing, then the winner is fitted to the points of all its steps (ours, see joint_fit.hpp)
 };
 
 struct CompetitionOptions {
-  Strategy strategy = Strategy::Optimizing;
+  Strategy strategy = Strategy::Joint;
   InitialisationOptions initialisation;
   ExtensionOptions extension;
   ConfirmationOptions confirmation;

@@ -10,11 +10,6 @@ namespace {
 
 constexpr double kGround_m = 0.0;
 
-struct Ends {
-  Interval side;
-  double sigma_m = 0.0;
-};
-
 // Parts are cut short by what hides them and hardly ever too long: the outer quartile of their ends is the stairway's.
 double outer_quartile(std::vector<double> ends, bool high) {
   std::sort(ends.begin(), ends.end());
@@ -29,18 +24,6 @@ double standard_error(const std::vector<double>& values) {
   return std::sqrt((array - array.mean()).square().sum() / (n - 1.0) / n);
 }
 
-Ends find_ends(const StairGraph& graph, const std::vector<StairPart>& parts, const Eigen::Vector3d& left) {
-  std::vector<double> rights;
-  std::vector<double> lefts;
-  for (const GraphPart& entry : graph.parts) {
-    const Interval extent = part_extent(parts[entry.part], left);
-    rights.push_back(extent.low);
-    lefts.push_back(extent.high);
-  }
-  return {.side = {outer_quartile(rights, false), outer_quartile(lefts, true)},
-          .sigma_m = std::hypot(standard_error(rights), standard_error(lefts))};
-}
-
 // The number of the step whose riser stands on the ground, if the way down to it is short enough to be believed.
 int first_step_number(const StairModel& model, int first_seen, const LocalisationOptions& options) {
   const int on_ground = static_cast<int>(std::lround((kGround_m - model.nosing.z()) / model.height_m)) + 1;
@@ -53,30 +36,48 @@ std::string LocalisationOptions::problem() const {
   return max_hidden_steps < 0 ? "max_hidden_steps must not be negative" : "";
 }
 
-Stairway localise(const Winner& winner, const std::vector<StairPart>& parts, const LocalisationOptions& options) {
-  const StairModel& model = winner.graph.model;
+FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& parts) {
+  const StairGraph& graph = winner.graph;
+  const Eigen::Vector3d left = graph.model.step(0).left();
+  std::vector<double> rights;
+  std::vector<double> lefts;
+  for (const GraphPart& entry : graph.parts) {
+    const Interval extent = part_extent(parts[entry.part], left);
+    rights.push_back(extent.low);
+    lefts.push_back(extent.high);
+  }
+  return {.model = graph.model,
+          .side = {outer_quartile(rights, false), outer_quartile(lefts, true)},
+          .side_sigma_m = std::hypot(standard_error(rights), standard_error(lefts)),
+          .sigmas = winner.sigmas,
+          .first = graph.parts.front().step,
+          .last = graph.parts.back().step,
+          .view = winner.view,
+          .score = winner.score};
+}
+
+Stairway localise(const FittedStairway& fitted, const LocalisationOptions& options) {
+  const StairModel& model = fitted.model;
   const Eigen::Vector3d left = model.step(0).left();
-  const Ends ends = find_ends(winner.graph, parts, left);
 
   Stairway stairway;
   stairway.kind = StairwayKind::Straight;
-  stairway.direction = winner.view == View::FromBelow ? StairwayDirection::Ascending : StairwayDirection::Descending;
+  stairway.direction = fitted.view == View::FromBelow ? StairwayDirection::Ascending : StairwayDirection::Descending;
   stairway.step_height = model.height_m;
   stairway.step_depth = model.depth_m;
-  stairway.width = ends.side.length();
+  stairway.width = fitted.side.length();
   stairway.heading = std::atan2(-model.descent.y(), -model.descent.x());
-  stairway.step_height_sigma = winner.sigmas.height_m;
-  stairway.step_depth_sigma = winner.sigmas.depth_m;
-  stairway.heading_sigma = winner.sigmas.heading_rad;
-  stairway.width_sigma = ends.sigma_m;
-  stairway.score = winner.score;
+  stairway.step_height_sigma = fitted.sigmas.height_m;
+  stairway.step_depth_sigma = fitted.sigmas.depth_m;
+  stairway.heading_sigma = fitted.sigmas.heading_rad;
+  stairway.width_sigma = fitted.side_sigma_m;
+  stairway.score = fitted.score;
 
-  const int last = winner.graph.parts.back().step;
-  const int first = std::min(first_step_number(model, winner.graph.parts.front().step, options), last);
-  for (int number = first; number <= last; ++number) {
+  const int first = std::min(first_step_number(model, fitted.first, options), fitted.last);
+  for (int number = first; number <= fitted.last; ++number) {
     const Eigen::Vector3d nosing = model.step(number).nosing;
     const Eigen::Vector3d on_axis = nosing - left * nosing.dot(left);
-    stairway.nosings.push_back({on_axis + left * ends.side.high, on_axis + left * ends.side.low});
+    stairway.nosings.push_back({on_axis + left * fitted.side.high, on_axis + left * fitted.side.low});
   }
   const Nosing& meeting =
       stairway.direction == StairwayDirection::Ascending ? stairway.nosings.front() : stairway.nosings.back();

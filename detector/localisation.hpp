@@ -16,11 +16,26 @@ struct LocalisationOptions {
   std::string problem() const;
 };
 
-/// Turns a graph into the stairway a robot can climb: first step on the ground, ends, anchor and every nosing.
+/// A stairway found and fitted, before it is placed in the building.
+struct FittedStairway {
+  StairModel model;
+  Interval side;              ///< along left() of the model [m]
+  double side_sigma_m = 0.0;  ///< of its length
+  FitSigmas sigmas;
+  int first = 0;  ///< number of the lowest step seen
+  int last = 0;   ///< and of the highest
+  View view = View::FromBelow;
+  double score = 0.0;  ///< eq 2
+};
+
+/// What the parts of a graph say about the stairway's ends.
+FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& parts);
+
+/// Turns a fit into the stairway a robot can climb: first step on the ground, ends, anchor and every nosing.
 ///
 /// A stairway that seems to begin above the ground (z = 0) is continued down to it; steps at or below it are dropped.
 ///
 /// Method: Westfechtel et al. 2018, section "Localization Using a Dynamic Anchor".
-Stairway localise(const Winner& winner, const std::vector<StairPart>& parts, const LocalisationOptions& options = {});
+Stairway localise(const FittedStairway& fitted, const LocalisationOptions& options = {});
 
 }  // namespace stairway::detect

@@ -17,7 +17,7 @@ Eigen::Vector3d horizontal_unit(const Eigen::Vector3d& v) { return Eigen::Vector
 
 std::optional<StairPart> as_riser(const scan::PointCloud& cloud, const PlaneRegion& region,
                                   const PlaneFinderOptions& options) {
-  StairPart part{.kind = StairPart::Kind::Riser, .centroid = region.axes.centroid};
+  StairPart part{.kind = StairPart::Kind::Riser, .centroid = region.axes.centroid, .point_count = region.points.size()};
   part.facing = horizontal_unit(region.axes.normal());
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(part.facing);
   const Interval height = robust_extent(cloud.points, region.points, Eigen::Vector3d::UnitZ(), across, kStrip_m);
@@ -37,8 +37,8 @@ std::optional<StairPart> as_riser(const scan::PointCloud& cloud, const PlaneRegi
 
 std::optional<StairPart> as_tread(const scan::PointCloud& cloud, const PlaneRegion& region,
                                   const PlaneFinderOptions& options) {
-  StairPart part{.kind = StairPart::Kind::Tread, .centroid = region.axes.centroid};
-  part.from_below = region.axes.normal().z() < 0.0;
+  StairPart part{.kind = StairPart::Kind::Tread, .centroid = region.axes.centroid, .point_count = region.points.size()};
+  part.from_below = cloud.sensor_origin && cloud.sensor_origin->z() < static_cast<float>(part.centroid.z());
   part.facing = horizontal_unit(region.axes.axes.col(1));
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(part.facing);
   const Interval depth = robust_extent(cloud.points, region.points, part.facing, across, kStrip_m);

@@ -17,18 +17,30 @@ std::vector<StairPart> find_parts(const scan::PointCloud& cloud, const std::vect
     std::optional<StairPart> part = find_stair_part(cloud, regions[i], options);
     if (!part) continue;
     part->region = i;
-    part->point_count = regions[i].points.size();
     parts.push_back(*part);
   }
   return parts;
+}
+
+void refine(const scan::PointCloud& cloud, const Winner& winner, const JointFitOptions& options,
+            FittedStairway& fitted) {
+  const std::optional<JointFit> joint = fit_jointly(cloud, winner.graph, options);
+  if (!joint) return;
+  fitted.model = joint->model;
+  fitted.side = joint->side;
+  fitted.side_sigma_m = joint->side_sigma_m;
+  fitted.sigmas = joint->sigmas;
+  fitted.first = joint->first;
+  fitted.last = joint->last;
 }
 
 }  // namespace
 
 std::string DetectorOptions::problem() const {
   if (!(voxel_m > 0.0)) return "voxel_m must be greater than 0";
-  for (const std::string& problem : {normals.problem(), region_growing.problem(), plane_finder.problem(),
-                                     competition.problem(), localisation.problem()})
+  for (const std::string& problem :
+       {normals.problem(), region_growing.problem(), plane_finder.problem(), fragment_merging.problem(),
+        competition.problem(), joint_fit.problem(), localisation.problem()})
     if (!problem.empty()) return problem;
   return {};
 }
@@ -44,15 +56,21 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
   const SurfaceNormals surface = estimate_normals(thinned, options.normals);
   begin_stage("segmentation");
   const CloudIndex index(thinned.points);
-  const std::vector<PlaneRegion> regions = grow_regions(thinned, surface, index, options.region_growing);
+  std::vector<PlaneRegion> regions = grow_regions(thinned, surface, index, options.region_growing);
   begin_stage("plane_finder");
+  regions = merge_fragments(thinned, std::move(regions), options.plane_finder, options.fragment_merging);
   const std::vector<StairPart> parts = find_parts(thinned, regions, options.plane_finder);
   begin_stage("stair_graph");
   const CompetitionResult competition = compete(parts, options.competition);
+  begin_stage("fit");
+  std::vector<FittedStairway> fitted;
+  for (const Winner& winner : competition.winners) {
+    fitted.push_back(from_parts(winner, parts));
+    if (options.competition.strategy == Strategy::Joint) refine(cloud, winner, options.joint_fit, fitted.back());
+  }
   begin_stage("localisation");
   Detection detection;
-  for (const Winner& winner : competition.winners)
-    detection.stairways.push_back(localise(winner, parts, options.localisation));
+  for (const FittedStairway& stairway : fitted) detection.stairways.push_back(localise(stairway, options.localisation));
   if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
   return detection;
 }

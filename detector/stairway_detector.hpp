@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "detector/competition.hpp"
+#include "detector/fragment_merging.hpp"
+#include "detector/joint_fit.hpp"
 #include "detector/localisation.hpp"
 #include "detector/normals.hpp"
 #include "detector/plane_finder.hpp"
@@ -21,7 +23,9 @@ struct DetectorOptions {
   NormalOptions normals;
   RegionGrowingOptions region_growing;
   PlaneFinderOptions plane_finder;
+  FragmentMergingOptions fragment_merging;
   CompetitionOptions competition;
+  JointFitOptions joint_fit;
   LocalisationOptions localisation;
 
   /// First problem found, worded for the person who set it; empty when usable.

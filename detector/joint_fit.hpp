@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "detector/stair_fit.hpp"
+#include "detector/step_measurement.hpp"
+#include "scan_assembly/point_cloud.hpp"
+
+namespace stairway::detect {
+
+struct JointFitOptions {
+  StepMeasurementOptions measurement;
+  int passes = 4;            ///< of measuring all steps and fitting the model to them
+  int max_unseen_steps = 2;  ///< the stairway ends after this many steps in a row of which no point is found
+
+  std::string problem() const;
+};
+
+/// A stairway fitted to the points of all its steps at once.
+struct JointFit {
+  StairModel model;
+  FitSigmas sigmas;
+  Interval side;              ///< along left() of the model [m]
+  double side_sigma_m = 0.0;  ///< of its length
+  int first = 0;              ///< number of the lowest step of which points were found
+  int last = 0;               ///< and of the highest
+  int seen_steps = 0;         ///< how many of them have points
+};
+
+/// Fits one model to the points of a stairway: fronts fix d and s, treads and the edges of sight fix h.
+///
+/// Starts from a graph's model, measures every step, fits, and measures again, looking for further steps at both ends.
+/// The points are those of the cloud before thinning.
+///
+/// @return the fit; nothing when fewer than two steps show points.
+std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph,
+                                    const JointFitOptions& options = {});
+
+}  // namespace stairway::detect
