@@ -93,12 +93,16 @@ Outline tread_outline(const StairSpec& spec, const std::vector<Place>& places, s
 }
 
 void add_closed_steps(const StairSpec& spec, const std::vector<Place>& places, double low_m, Mesh& mesh) {
+  constexpr double kSoffit_m = 0.15;
+  const bool is_solid = spec.turn_per_step_rad == 0;  // a solid spiral would hide itself
   for (std::size_t i = 0; i < places.size(); ++i) {
+    const double foot_m = is_solid ? low_m : std::max(low_m, places[i].z_m - spec.height_m - kSoffit_m);
+    if (!is_solid) mesh.add_horizontal(tread_outline(spec, places, i, 0.0), foot_m);
     if (spec.overhang_m > 0) {
       mesh.add_prism(tread_outline(spec, places, i, 0.0), places[i].z_m - spec.tread_thickness_m, places[i].z_m);
-      mesh.add_walls(tread_outline(spec, places, i, spec.overhang_m), low_m, places[i].z_m - spec.tread_thickness_m);
+      mesh.add_walls(tread_outline(spec, places, i, spec.overhang_m), foot_m, places[i].z_m - spec.tread_thickness_m);
     } else {
-      mesh.add_walls(tread_outline(spec, places, i, 0.0), low_m, places[i].z_m);
+      mesh.add_walls(tread_outline(spec, places, i, 0.0), foot_m, places[i].z_m);
       mesh.add_horizontal(tread_outline(spec, places, i, 0.0), places[i].z_m);
     }
   }
