@@ -21,7 +21,7 @@ Interval starting_side(const Initialisation& start, const std::vector<StairPart>
 class Competition {
  public:
   Competition(const std::vector<StairPart>& parts, const CompetitionOptions& options)
-      : parts_(parts), options_(options), taken_(parts.size(), false) {}
+      : parts_(parts), options_(options), taken_(region_count(parts), false) {}
 
   CompetitionResult run() {
     const std::vector<Initialisation> starts = initialise_graphs(parts_, options_.initialisation);
@@ -52,7 +52,7 @@ class Competition {
   }
 
   std::optional<Winner> confirmed(const Initialisation& start) {
-    if (taken_[start.parts[0]] || taken_[start.parts[1]]) return std::nullopt;
+    if (is_taken(start.parts[0]) || is_taken(start.parts[1])) return std::nullopt;
     Winner candidate{.graph = {}, .view = view_of(start.model)};
     candidate.graph =
         extend_graph(start.model, starting_side(start, parts_), parts_, candidate.view, options_.extension);
@@ -76,13 +76,22 @@ class Competition {
     winner.score = score(winner.graph, parts_, winner.view).total();
   }
 
+  // Two parts may stand for one region, so it is regions that are taken.
+  bool is_taken(std::size_t part) const { return taken_[parts_[part].region]; }
+
+  static std::size_t region_count(const std::vector<StairPart>& parts) {
+    std::size_t count = 0;
+    for (const StairPart& part : parts) count = std::max(count, part.region + 1);
+    return count;
+  }
+
   bool is_free(const StairGraph& graph) const {
     return std::none_of(graph.parts.begin(), graph.parts.end(),
-                        [&](const GraphPart& entry) { return taken_[entry.part]; });
+                        [&](const GraphPart& entry) { return is_taken(entry.part); });
   }
 
   void claim(Winner winner) {
-    for (const GraphPart& entry : winner.graph.parts) taken_[entry.part] = true;
+    for (const GraphPart& entry : winner.graph.parts) taken_[parts_[entry.part].region] = true;
     result_.winners.push_back(std::move(winner));
   }
 

@@ -41,6 +41,13 @@ Deviation tread_deviation(const StairModel& model, const StepFrame& step, const 
   return result;
 }
 
+// Ours. Seen from below or above, a bar is spread about the nosing it stands for.
+Deviation edge_deviation(const StepFrame& step, const StairPart& edge) {
+  return {.depth_m = std::abs((step.nosing - edge.centroid).dot(step.descent)),
+          .height_m = std::abs(step.nosing.z() - edge.centroid.z()),
+          .direction_rad = std::acos(std::min(std::abs(step.descent.dot(edge.facing)), 1.0))};
+}
+
 }  // namespace
 
 Interval part_extent(const StairPart& part, const Eigen::Vector3d& axis) {
@@ -56,8 +63,15 @@ Interval part_extent(const StairPart& part, const Eigen::Vector3d& axis) {
 
 Deviation deviation(const StairModel& model, int number, const StairPart& part, View view) {
   const StepFrame step = model.step(number);
-  return part.kind == StairPart::Kind::Riser ? riser_deviation(model, step, part, view)
-                                             : tread_deviation(model, step, part, view);
+  switch (part.kind) {
+    case StairPart::Kind::Riser:
+      return riser_deviation(model, step, part, view);
+    case StairPart::Kind::Tread:
+      return tread_deviation(model, step, part, view);
+    case StairPart::Kind::Edge:
+      break;
+  }
+  return edge_deviation(step, part);
 }
 
 }  // namespace stairway::detect

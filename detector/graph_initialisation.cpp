@@ -50,6 +50,17 @@ std::vector<StairModel> from_risers(const Pair& pair, const InitialisationOption
           model_at(pair, h_bb, depth, s, front, pair.lower.bottom.z() + h_bb)};
 }
 
+// Ours: the bars of two open treads, their middles a step apart.
+std::vector<StairModel> from_edges(const Pair& pair, const InitialisationOptions& options) {
+  const double agreement = pair.lower.facing.dot(pair.upper.facing);
+  if (std::abs(agreement) < std::cos(options.max_riser_angle_rad)) return {};
+  const Eigen::Vector3d sum =
+      pair.lower.width() * pair.lower.facing + (agreement < 0.0 ? -1.0 : 1.0) * pair.upper.width() * pair.upper.facing;
+  const Eigen::Vector3d s = towards_descent(sum.normalized(), pair);
+  const Eigen::Vector3d apart = pair.upper.centroid - pair.lower.centroid;
+  return {model_at(pair, apart.z(), -apart.dot(s), s, pair.lower.centroid.dot(s), pair.lower.centroid.z())};
+}
+
 std::vector<StairModel> from_treads(const Pair& pair) {
   if (pair.lower.from_below != pair.upper.from_below) return {};
   const double height = pair.upper.centroid.z() - pair.lower.centroid.z();
@@ -67,6 +78,18 @@ std::vector<StairModel> from_treads(const Pair& pair) {
   }
   for (StairModel& model : models) model.tread_thickness_m = thickness;
   return models;
+}
+
+std::vector<StairModel> suggested_models(const Pair& pair, const InitialisationOptions& options) {
+  switch (pair.lower.kind) {
+    case StairPart::Kind::Riser:
+      return from_risers(pair, options);
+    case StairPart::Kind::Tread:
+      return from_treads(pair);
+    case StairPart::Kind::Edge:
+      break;
+  }
+  return from_edges(pair, options);
 }
 
 }  // namespace
@@ -91,8 +114,7 @@ std::vector<Initialisation> initialise_graphs(const std::vector<StairPart>& part
       if (i == k || pair.lower.kind != pair.upper.kind || rise < 0.0 ||
           rise > options.limits.max_height_m + kEdgeSlack_m || horizontal_distance(pair) > options.max_pair_distance_m)
         continue;
-      const bool risers = pair.lower.kind == StairPart::Kind::Riser;
-      for (const StairModel& model : risers ? from_risers(pair, options) : from_treads(pair)) {
+      for (const StairModel& model : suggested_models(pair, options)) {
         if (options.limits.allow(model.height_m, model.depth_m) &&
             side_by_side(pair, model.descent, options.min_side_overlap_m))
           initialisations.push_back({model, {i, k}});

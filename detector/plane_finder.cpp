@@ -75,4 +75,24 @@ std::optional<StairPart> find_stair_part(const scan::PointCloud& cloud, const Pl
   return std::nullopt;
 }
 
+std::optional<StairPart> find_edge(const scan::PointCloud& cloud, const PlaneRegion& region,
+                                   const PlaneFinderOptions& options) {
+  const Eigen::Vector3d length = region.axes.axes.col(0);
+  if (!options.find_edges || std::abs(length.z()) > std::sin(options.max_edge_tilt_rad)) return std::nullopt;
+  StairPart part{.kind = StairPart::Kind::Edge,
+                 .centroid = region.axes.centroid,
+                 .facing = length.cross(Eigen::Vector3d::UnitZ()).normalized(),
+                 .point_count = region.points.size()};
+  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(part.facing);
+  const Interval height = robust_extent(cloud.points, region.points, Eigen::Vector3d::UnitZ(), across, kStrip_m);
+  const Interval depth = robust_extent(cloud.points, region.points, part.facing, across, kStrip_m);
+  if (std::max(height.length(), depth.length()) > options.max_edge_thickness_m) return std::nullopt;
+  const Interval side = robust_extent(cloud.points, region.points, across, part.facing, kStrip_m);
+  if (side.length() < options.min_edge_width_m) return std::nullopt;
+  part.top = part.bottom = part.front = part.back = part.centroid;
+  part.end_a = part.centroid + across * (side.low - part.centroid.dot(across));
+  part.end_b = part.centroid + across * (side.high - part.centroid.dot(across));
+  return part;
+}
+
 }  // namespace stairway::detect

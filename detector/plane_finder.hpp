@@ -19,6 +19,11 @@ struct PlaneFinderOptions {
       0.40;                   ///< extent of a tread along its second eigenvector [m]; DIN 18065's 37 cm and a margin
   double min_width_m = 0.15;  ///< extent along the first eigenvector [m]; ours: narrower ones are posts and scraps
 
+  bool find_edges = true;              ///< ours: also look for bars along the nosings
+  double max_edge_thickness_m = 0.15;  ///< extent of an edge across its length, in depth and height [m]
+  double min_edge_width_m = 0.40;      ///< its extent along the first eigenvector [m]
+  double max_edge_tilt_rad = 0.1745;   ///< its first eigenvector against horizontal [rad]
+
   std::string problem() const;
 };
 
@@ -29,5 +34,11 @@ struct PlaneFinderOptions {
 /// Method: Westfechtel et al. 2018, section "Plane Finder".
 std::optional<StairPart> find_stair_part(const scan::PointCloud& cloud, const PlaneRegion& region,
                                          const PlaneFinderOptions& options = {});
+
+/// Tells whether a region is a horizontal bar, as the front of an open tread is where the beam's spot is as wide as the
+/// tread is thick: its normal means nothing there, but its direction and place do.
+/// Not in the paper, whose stairway I is lost for this reason beyond 4 m.
+std::optional<StairPart> find_edge(const scan::PointCloud& cloud, const PlaneRegion& region,
+                                   const PlaneFinderOptions& options = {});
 
 }  // namespace stairway::detect

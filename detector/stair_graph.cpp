@@ -105,7 +105,7 @@ StairScore score(const StairGraph& graph, const std::vector<StairPart>& parts, V
     const Deviation off = deviation(model, entry.step, part, view);
     const double depth_score = (model.depth_m - off.depth_m) / model.depth_m;      // eqs 4, 15
     const double height_score = (model.height_m - off.height_m) / model.height_m;  // eqs 7, 18
-    if (part.kind == StairPart::Kind::Riser) {
+    if (part.kind != StairPart::Kind::Tread) {  // an edge counts as what is left of a riser
       result.risers += depth_score + height_score + (1.0 - off.direction_rad);  // eqs 3, 12
       ++result.riser_count;
     } else {

@@ -12,15 +12,20 @@ namespace stairway::detect {
 /// The outline is the rectangle that a robust measure of the region's extents gives, in the plane's own axes:
 /// one point in the middle of each of its edges.
 struct StairPart {
-  enum class Kind { Riser, Tread };
+  enum class Kind {
+    Riser,
+    Tread,
+    Edge,  ///< ours: a bar along the nosing, all that is left of an open tread seen from afar
+  };
 
   Kind kind = Kind::Riser;
   bool from_below = false;  ///< a tread seen from below: its underside
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  /// Riser: the horizontal unit normal. Tread: the horizontal unit direction of its depth, the second eigenvector u.
+  /// Riser and edge: the horizontal unit normal. Tread: the horizontal unit direction of its depth, the second
+  /// eigenvector u.
   Eigen::Vector3d facing = Eigen::Vector3d::UnitX();
-  Eigen::Vector3d top = Eigen::Vector3d::Zero();     ///< riser: middle of the top edge; tread: equals the centroid
-  Eigen::Vector3d bottom = Eigen::Vector3d::Zero();  ///< riser: middle of the bottom edge; tread: equals the centroid
+  Eigen::Vector3d top = Eigen::Vector3d::Zero();     ///< riser: middle of the top edge; else the centroid
+  Eigen::Vector3d bottom = Eigen::Vector3d::Zero();  ///< riser: middle of the bottom edge; else the centroid
   Eigen::Vector3d front = Eigen::Vector3d::Zero();   ///< middle of the edge farthest along `facing`
   Eigen::Vector3d back = Eigen::Vector3d::Zero();    ///< middle of the opposite edge
   Eigen::Vector3d end_a = Eigen::Vector3d::Zero();   ///< middle of one lateral edge

@@ -14,10 +14,12 @@ std::vector<StairPart> find_parts(const scan::PointCloud& cloud, const std::vect
                                   const PlaneFinderOptions& options) {
   std::vector<StairPart> parts;
   for (std::size_t i = 0; i < regions.size(); ++i) {
-    std::optional<StairPart> part = find_stair_part(cloud, regions[i], options);
-    if (!part) continue;
-    part->region = i;
-    parts.push_back(*part);
+    for (std::optional<StairPart> part :
+         {find_stair_part(cloud, regions[i], options), find_edge(cloud, regions[i], options)}) {
+      if (!part) continue;
+      part->region = i;
+      parts.push_back(*part);
+    }
   }
   return parts;
 }
