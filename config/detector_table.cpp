@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "config/section.hpp"
+
+namespace stairway::config {
+namespace {
+
+// A choice names every enumerator in order; the last one tells when there are more.
+static_assert(static_cast<int>(detect::Strategy::Joint) == 3);
+
+}  // namespace
+
+void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& detector) {
+  Section(table, "detector").real("voxel", detector.voxel_m, kMillimetre, {1, 200}, "edge of the thinning cells");
+
+  Section(table, "detector.normals")
+      .real("radius", detector.normals.radius_m, kMillimetre, {5, 500}, "neighbours within it make a normal")
+      .whole("min_neighbours", detector.normals.min_neighbours, 3, 1000,
+             "where the radius holds fewer points, the nearest this many are taken");
+
+  Section(table, "detector.region_growing")
+      .whole("num_neighbours", detector.region_growing.num_neighbours, 3, 200, "neighbours a region may grow over")
+      .real("max_normal_angle", detector.region_growing.max_normal_angle_rad, kDegree, {1, 89},
+            "normal of a point against the region's")
+      .real("max_plane_distance", detector.region_growing.max_plane_distance_m, kMillimetre, {1, 500},
+            "point to the plane of the region; about three times the range noise")
+      .whole("min_points", detector.region_growing.min_points, 3, 1000000, "a region must have more points than this");
+
+  Section(table, "detector.plane_finder")
+      .real("max_tilt", detector.plane_finder.max_tilt_rad, kDegree, {1, 45},
+            "normal against the horizontal (riser) or the vertical (tread)")
+      .real("max_riser_height", detector.plane_finder.max_riser_height_m, kMillimetre, {20, 1000},
+            "vertical extent of a riser")
+      .real("max_tread_depth", detector.plane_finder.max_tread_depth_m, kMillimetre, {20, 2000},
+            "horizontal extent of a tread in the direction of ascent")
+      .real("min_width", detector.plane_finder.min_width_m, kMillimetre, {10, 2000},
+            "risers and treads that show less of their width are left out");
+
+  detect::FragmentMergingOptions& merging = detector.fragment_merging;
+  Section(table, "detector.fragment_merging")
+      .on_off("enabled", merging.enabled, "join regions that are pieces of one riser or tread")
+      .real("max_offset", merging.max_offset_m, kMillimetre, {0, 200}, "between two pieces, across their plane")
+      .real("max_gap", merging.max_gap_m, kMillimetre, {0, 2000}, "between two pieces, in their plane")
+      .real("max_riser_angle", merging.max_riser_angle_rad, kDegree, {1, 89},
+            "between the normals of two riser pieces");
+
+  detect::CompetitionOptions& competition = detector.competition;
+  Section(table, "detector.competition")
+      .choice("strategy", competition.strategy, {"greedy", "thorough", "optimizing", "joint"},
+              "how candidates that claim the same parts compete");
+
+  detect::StepLimits& steps = competition.initialisation.limits;
+  Section(table, "detector.steps")
+      .real("min_height", steps.min_height_m, kMillimetre, {10, 1000}, "lowest step")
+      .real("max_height", steps.max_height_m, kMillimetre, {10, 1000}, "highest step")
+      .real("min_depth", steps.min_depth_m, kMillimetre, {10, 2000}, "shallowest step")
+      .real("max_depth", steps.max_depth_m, kMillimetre, {10, 2000}, "deepest step")
+      .real("min_slope", steps.min_slope_rad, kDegree, {0, 89}, "flattest pair of steps")
+      .real("max_slope", steps.max_slope_rad, kDegree, {1, 89}, "steepest pair of steps");
+
+  detect::InitialisationOptions& initialisation = competition.initialisation;
+  Section(table, "detector.initialisation")
+      .real("max_pair_distance", initialisation.max_pair_distance_m, kMillimetre, {10, 10000},
+            "between two parts of neighbouring steps, horizontally")
+      .real("max_riser_angle", initialisation.max_riser_angle_rad, kDegree, {1, 89},
+            "between two risers of neighbouring steps")
+      .real("min_side_overlap", initialisation.min_side_overlap_m, kMillimetre, {0, 2000},
+            "of two parts, across the stairway");
+
+  detect::ExtensionOptions& extension = competition.extension;
+  Section(table, "detector.extension")
+      .real("search_radius", extension.search_radius_m, kMillimetre, {10, 10000},
+            "around the place where the next step is expected")
+      .whole("max_empty_steps", extension.max_empty_steps, 0, 20,
+             "a stairway ends after this many steps without a part")
+      .whole("max_steps", extension.max_steps, 1, 10000, "no stairway is longer")
+      .real("max_depth_deviation", extension.max_depth_deviation_m, kMillimetre, {1, 500},
+            "of a part from the model, in the direction of ascent")
+      .real("max_height_deviation", extension.max_height_deviation_m, kMillimetre, {1, 500},
+            "of a part from the model, vertically")
+      .real("max_direction", extension.max_direction_rad, kDegree, {1, 89}, "of a part from the direction of ascent")
+      .real("min_side_overlap", extension.min_side_overlap_m, kMillimetre, {0, 2000},
+            "of a part with the stairway found so far");
+
+  detect::ConfirmationOptions& confirmation = competition.confirmation;
+  Section(table, "detector.confirmation")
+      .real("min_slope", confirmation.min_slope_rad, kDegree, {0, 89}, "flattest stairway")
+      .real("max_slope", confirmation.max_slope_rad, kDegree, {1, 89}, "steepest stairway")
+      .whole("min_steps", confirmation.min_steps, 2, 1000, "steps that must have been seen");
+
+  detect::JointFitOptions& joint_fit = detector.joint_fit;
+  Section(table, "detector.joint_fit")
+      .whole("passes", joint_fit.passes, 1, 100, "of measuring all steps and fitting the model to them")
+      .whole("max_unseen_steps", joint_fit.max_unseen_steps, 0, 100,
+             "a stairway ends after this many steps in a row without points")
+      .real("range_sigma", joint_fit.measurement.range_sigma_m, kMillimetre, {0.1, 500}, "noise of one point")
+      .real("spot", joint_fit.measurement.spot_rad, kMilliradian, {0, 100},
+            "full angle of the sensor's beam, whose points at edges are mixed")
+      .real("search", joint_fit.measurement.search_m, kMillimetre, {1, 500},
+            "fronts and surfaces are looked for this far from the model")
+      .whole("min_points", joint_fit.measurement.min_points, 3, 100000, "of a front or a surface")
+      .real("min_coverage", joint_fit.measurement.min_coverage, kPlain, {0, 1},
+            "share of the side that a front or surface must cover")
+      .real("min_contrast", joint_fit.measurement.min_contrast, kPlain, {0, 1000},
+            "density of points on a front or surface against that around it");
+
+  Section(table, "detector.localisation")
+      .whole("max_hidden_steps", detector.localisation.max_hidden_steps, 0, 100,
+             "steps that may be added between the lowest seen one and the floor");
+}
+
+}  // namespace stairway::config

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "config/settings.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace stairway::config {
+
+std::string InputOptions::problem() const {
+  if (gravity && !(gravity->norm() > 0.0)) return "gravity must not be zero";
+  return {};
+}
+
+std::string SimulationOptions::problem() const {
+  if (scene.empty()) return "scene must name a scene or a scene file";
+  if (!(std::abs(disk_period_s) >= 1.0)) return "disk_period_s must be at least 1 or at most -1";
+  return {};
+}
+
+std::string Settings::problem() const {
+  const std::pair<const char*, std::string> problems[] = {
+      {"lcm", lcm.problem()},           {"lidar", lidar.problem()},       {"mount", mount.problem()},
+      {"sweep", sweep.problem()},       {"detector", detector.problem()}, {"input", input.problem()},
+      {"simulate", simulate.problem()},
+  };
+  for (const auto& [section, problem] : problems) {
+    if (!problem.empty()) return std::string(section) + ": " + problem;
+  }
+  return {};
+}
+
+}  // namespace stairway::config

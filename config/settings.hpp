@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "detector/stairway_detector.hpp"
+#include "drivers/scip/scip_options.hpp"
+#include "ipc/channels.hpp"
+#include "scan_assembly/frames.hpp"
+#include "scan_assembly/sweep_assembler.hpp"
+
+namespace stairway::config {
+
+/// How a cloud that was read from a file is turned before detection.
+enum class Levelling {
+  None,   ///< only by the angles or the gravity given
+  Floor,  ///< then onto the largest nearly horizontal plane below the sensor, which becomes z = 0
+};
+
+struct InputOptions {
+  std::optional<Eigen::Vector3d> gravity;  ///< downwards in the file's frame, of any length; replaces roll and pitch
+  double roll_rad = 0.0;                   ///< of the sensor about x, left side up [rad], in [-pi, pi]
+  double pitch_rad = 0.0;                  ///< of the sensor about y, front down [rad], in [-pi/2, pi/2]
+  Levelling level = Levelling::None;
+
+  /// First problem found, worded for the person editing the file; empty when usable.
+  std::string problem() const;
+};
+
+struct SimulationOptions {
+  std::string scene = "straight-flight";  ///< name of a shipped scene or path of a scene file
+  double speed = 1.0;                     ///< simulated seconds per second; 0 is as fast as possible
+  int seed = 1;                           ///< of the noise
+  double disk_period_s = 35.0;            ///< one turn of the disk [s]; negative turns clockwise
+
+  std::string problem() const;
+};
+
+enum class LogLevel { Error, Warning, Info, Debug };
+
+struct LogOptions {
+  LogLevel level = LogLevel::Info;
+};
+
+/// Every setting of the programs, made of the Options of their parts; the defaults suit the UTM-30LX on its disk.
+/// The keys of the settings file, with units and ranges, are in settings_table.hpp.
+struct Settings {
+  std::string profile = "lidar";  ///< name of the set of defaults that was laid under the file
+  LogOptions log;
+  ipc::BusOptions lcm;
+  drivers::ScipOptions lidar;
+  scan::MountOptions mount;
+  scan::SweepOptions sweep;
+  detect::DetectorOptions detector;
+  InputOptions input;
+  SimulationOptions simulate;
+
+  /// First problem of any part, beginning with the section it is in; empty when usable.
+  std::string problem() const;
+};
+
+}  // namespace stairway::config

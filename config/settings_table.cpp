@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "config/settings_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "config/section.hpp"
+
+namespace stairway::config {
+namespace {
+
+void add_lidar_settings(std::vector<Entry>& table, drivers::ScipOptions& lidar) {
+  Section(table, "lidar")
+      .real("min_angle", lidar.min_angle_rad, kDegree, {-180, 180}, "right end of the scan window, 0 is the front beam")
+      .real("max_angle", lidar.max_angle_rad, kDegree, {-180, 180}, "left end of the scan window")
+      .whole("cluster", lidar.cluster, 1, 99, "neighbouring beams that share their smallest range")
+      .whole("skip_scan", lidar.skip_scan, 0, 9, "mirror turns left out between two scans")
+      .choice("stamp_reference", lidar.stamp_reference, {"rear", "step0"},
+              "where the beam points at the stamped instant")
+      .real("min_latency", lidar.clock.minimum_latency_ns, kMillisecondOfNanoseconds, {0, 1000},
+            "from the stamped instant to the first byte at the host")
+      .real("clock_window", lidar.clock.window_s, kSecond, {0.5, 60}, "scans that share one fit of the scanner's clock")
+      .real("max_clock_gap", lidar.clock.max_gap_s, kSecond, {0.1, 10}, "a longer gap starts the fit anew")
+      .real("max_clock_step", lidar.clock.max_step_ns, kMillisecondOfNanoseconds, {0.1, 1000},
+            "a larger jump of the arrivals starts the fit anew");
+  Section(table, "lidar.timing")
+      .real("drain_silence", lidar.drain_silence_s, kSecond, {0.03, 2}, "silence that ends a drain")
+      .real("max_drain", lidar.max_drain_s, kSecond, {0, 10}, "longest drain before the first command")
+      .real("command_timeout", lidar.command_timeout_s, kSecond, {0.14, 10}, "wait for a reply")
+      .whole("command_attempts", lidar.command_attempts, 1, 10, "sendings of one command")
+      .whole("laser_attempts", lidar.laser_attempts, 1, 60, "attempts to switch the laser on after power-up")
+      .real("laser_retry", lidar.laser_retry_s, kSecond, {0.1, 10}, "pause between them")
+      .real("watchdog_margin", lidar.watchdog_margin_s, kSecond, {0.01, 10},
+            "a scan is missing after three scan periods and this")
+      .real("self_check", lidar.self_check_s, kSecond, {0.1, 60}, "longest pause for the scanner's own check")
+      .whole("restarts_before_reopen", lidar.restarts_before_reopen, 1, 100,
+             "failures in a row until the port is opened again")
+      .real("min_backoff", lidar.min_backoff_s, kSecond, {0.01, 60},
+            "pause before opening it again, doubled by failures")
+      .real("max_backoff", lidar.max_backoff_s, kSecond, {0.01, 600}, "longest such pause");
+}
+
+void add_mount_settings(std::vector<Entry>& table, scan::MountOptions& mount) {
+  Section(table, "mount")
+      .real("scan_plane_pitch", mount.scan_plane_pitch_rad, kDegree, {-89, 89},
+            "front beam above the disk; -60 is the inverted mount that looks down stairs")
+      .real("scan_plane_roll", mount.scan_plane_roll_rad, kDegree, {-180, 180},
+            "turn about the front beam, left side up")
+      .real("scan_plane_yaw", mount.scan_plane_yaw_rad, kDegree, {-180, 180}, "front beam left of the encoder index")
+      .real("lever_arm_x", mount.lever_arm_x_m, kMillimetre, {-1000, 1000},
+            "scanner's origin on the disk, from its axis")
+      .real("lever_arm_y", mount.lever_arm_y_m, kMillimetre, {-1000, 1000}, "likewise")
+      .real("lever_arm_z", mount.lever_arm_z_m, kMillimetre, {-1000, 1000}, "likewise")
+      .real("disk_x", mount.disk_x_m, kMillimetre, {-10000, 10000}, "disk on the robot, forward of base")
+      .real("disk_y", mount.disk_y_m, kMillimetre, {-10000, 10000}, "disk on the robot, left of base")
+      .real("disk_z", mount.disk_z_m, kMillimetre, {-10000, 10000}, "disk above the floor");
+}
+
+void add_sweep_settings(std::vector<Entry>& table, scan::SweepOptions& sweep) {
+  Section(table, "sweep")
+      .real("min_range", sweep.min_range_m, kMetre, {0, 100}, "nearer returns are dropped")
+      .real("max_range", sweep.max_range_m, kMetre, {0.1, 100}, "farther returns are dropped")
+      .real("max_duration", sweep.max_duration_s, kSecond, {0.1, 600}, "a sweep is cut after this")
+      .whole("max_points", sweep.max_points, 1000, 20000000, "and when it holds this many points")
+      .whole("max_waiting_scans", sweep.max_waiting_scans, 1, 10000, "scans held back until their disk angle is known")
+      .real("max_angle_gap", sweep.angle.max_gap_s, kSecond, {0.001, 10}, "gap between disk angles that may be bridged")
+      .real("max_angle_extrapolation", sweep.angle.max_extrapolation_s, kSecond, {0, 1},
+            "how far past the newest disk angle it is still told")
+      .whole("max_angle_samples", sweep.angle.max_samples, 2, 10000000, "disk angles kept");
+}
+
+void add_input_settings(std::vector<Entry>& table, InputOptions& input) {
+  Section(table, "input")
+      .vector("gravity", input.gravity, "downwards in the frame of a cloud file, e.g. from its IMU; [] is along -z")
+      .real("roll", input.roll_rad, kDegree, {-180, 180}, "of the sensor about x, left side up; unused with gravity")
+      .real("pitch", input.pitch_rad, kDegree, {-90, 90}, "of the sensor about y, front down; unused with gravity")
+      .choice("level", input.level, {"none", "floor"}, "floor: turn and lift the cloud until its floor is z = 0");
+}
+
+void add_simulation_settings(std::vector<Entry>& table, SimulationOptions& simulate) {
+  Section(table, "simulate")
+      .text("scene", simulate.scene, "name of a shipped scene or path of a scene file")
+      .real("speed", simulate.speed, kPlain, {0, 1000}, "simulated seconds per second; 0 is as fast as possible")
+      .whole("seed", simulate.seed, 0, 2147483647, "of the noise")
+      .real("disk_period", simulate.disk_period_s, kSecond, {-600, 600}, "one turn of the disk; negative is clockwise");
+}
+
+template <class... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+std::string show_real(double value) {
+  return fmt::format("{:.6g}", value + 0.0);  // turns -0 into 0
+}
+
+std::string show_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    out += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  }
+  return out;
+}
+
+/// Calls `write_section(name)` and `write_entry(entry, name without section)` down the table.
+template <class WriteSection, class WriteEntry>
+void write_sections(const std::vector<Entry>& table, WriteSection write_section, WriteEntry write_entry) {
+  std::string section;
+  for (const Entry& entry : table) {
+    const std::size_t dot = entry.key.rfind('.');
+    const std::string own = dot == std::string::npos ? "" : entry.key.substr(0, dot);
+    if (own != section) write_section(own);
+    section = own;
+    write_entry(entry, dot == std::string::npos ? entry.key : entry.key.substr(dot + 1));
+  }
+}
+
+}  // namespace
+
+std::vector<Entry> settings_table(Settings& settings) {
+  std::vector<Entry> table;
+  Section(table, "").text("profile", settings.profile, "set of defaults below this file: lidar or depth-camera");
+  Section(table, "log")
+      .choice("level", settings.log.level, {"error", "warning", "info", "debug"}, "how much is said on stderr");
+  Section(table, "lcm")
+      .text("url", settings.lcm.url, "LCM provider; ttl=0 keeps messages on this host")
+      .text("channel_prefix", settings.lcm.channel_prefix, "in front of every channel name");
+  add_lidar_settings(table, settings.lidar);
+  add_mount_settings(table, settings.mount);
+  add_sweep_settings(table, settings.sweep);
+  add_detector_settings(table, settings.detector);
+  add_input_settings(table, settings.input);
+  add_simulation_settings(table, settings.simulate);
+  return table;
+}
+
+std::string show_value(const Entry& entry) {
+  return std::visit(Overloaded{
+                        [](const RealField& field) { return show_real(*field.value / field.unit.in_struct); },
+                        [](const WholeField& field) { return std::to_string(*field.value); },
+                        [](const SwitchField& field) { return std::string(*field.value ? "true" : "false"); },
+                        [](const TextField& field) { return show_text(*field.value); },
+                        [](const ChoiceField& field) { return show_text(field.names.at(field.get())); },
+                        [](const VectorField& field) {
+                          if (!field.value->has_value()) return std::string("[]");
+                          const Eigen::Vector3d& v = **field.value;
+                          return fmt::format("[{}, {}, {}]", show_real(v.x()), show_real(v.y()), show_real(v.z()));
+                        },
+                    },
+                    entry.field);
+}
+
+std::string describe_range(const Entry& entry) {
+  return std::visit(Overloaded{
+                        [](const RealField& field) {
+                          return fmt::format("{}..{}{}{}", show_real(field.min), show_real(field.max),
+                                             field.unit.name.empty() ? "" : " ", field.unit.name);
+                        },
+                        [](const WholeField& field) { return fmt::format("{}..{}", field.min, field.max); },
+                        [](const SwitchField&) { return std::string("true or false"); },
+                        [](const TextField&) { return std::string("text"); },
+                        [](const ChoiceField& field) { return joined(field.names); },
+                        [](const VectorField&) { return std::string("[x, y, z] or []"); },
+                    },
+                    entry.field);
+}
+
+std::string default_file_text() {
+  Settings defaults;
+  std::string out =
+      "# SPDX-FileCopyrightText: The stairwayd authors\n# SPDX-License-Identifier: Apache-2.0\n"
+      "#\n# Settings of stairwayd and stairway. Every key is listed with its default; remove the # in front of what "
+      "you\n"
+      "# change. `stairway config` shows what is in effect and where each value comes from.\n\n";
+  write_sections(
+      settings_table(defaults), [&](const std::string& section) { out += fmt::format("\n[{}]\n", section); },
+      [&](const Entry& entry, const std::string& name) {
+        out += fmt::format("# {} ({})\n#{} = {}\n", entry.doc, describe_range(entry), name, show_value(entry));
+      });
+  return out;
+}
+
+std::string to_toml(const Settings& settings) {
+  Settings copy = settings;
+  std::string out;
+  write_sections(
+      settings_table(copy), [&](const std::string& section) { out += fmt::format("\n[{}]\n", section); },
+      [&](const Entry& entry, const std::string& name) { out += fmt::format("{} = {}\n", name, show_value(entry)); });
+  return out;
+}
+
+}  // namespace stairway::config
