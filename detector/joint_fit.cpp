@@ -2,60 +2,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "detector/joint_fit.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 namespace stairway::detect {
 namespace {
 
+// a + j d is the front of step j along the ascent, b + j h its height, t the thickness of its tread.
+enum Unknown { kFront, kDepth, kHeight, kRise, kThickness, kUnknowns };
+using Row = Eigen::Matrix<double, kUnknowns, 1>;
+
 struct Observation {
-  int number;
+  Row row;  ///< what multiplies the unknowns
   Estimate estimate;
 };
 
-/// value = offset + slope * number, weighted by the sigmas, with outliers set aside.
-struct Line {
-  double offset;
-  double slope;
-  double slope_sigma;
+struct Solution {
+  Row unknowns;
+  Row sigmas;
 };
 
-std::optional<Line> fit_line(std::vector<Observation> observations, double floor) {
-  for (Observation& o : observations) o.estimate.sigma = std::hypot(o.estimate.sigma, floor);
-  std::optional<Line> line;
+// Weighted least squares with outliers set aside (weights fall with the square of the residual beyond two sigmas).
+Solution solve(const std::vector<Observation>& observations, const Row& start) {
+  constexpr int kRounds = 6;
+  using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+  Solution solution{start, Row::Zero()};
   std::vector<double> weights(observations.size(), 1.0);
-  for (int round = 0; round < 5; ++round) {
-    double w = 0.0, wx = 0.0, wy = 0.0, wxx = 0.0, wxy = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    Matrix information = Matrix::Zero();
+    Row right = Row::Zero();
     for (std::size_t i = 0; i < observations.size(); ++i) {
-      const double weight = weights[i] / (observations[i].estimate.sigma * observations[i].estimate.sigma);
-      const double x = observations[i].number;
-      const double y = observations[i].estimate.value;
-      w += weight;
-      wx += weight * x;
-      wy += weight * y;
-      wxx += weight * x * x;
-      wxy += weight * x * y;
+      const auto& [row, estimate] = observations[i];
+      const double weight = weights[i] / (estimate.sigma * estimate.sigma);
+      information += weight * row * row.transpose();
+      right += weight * row * (estimate.value - row.dot(start));
     }
-    const double determinant = w * wxx - wx * wx;
-    if (!(determinant > 1e-9 * w * w)) return std::nullopt;
-    line = Line{(wxx * wy - wx * wxy) / determinant, (w * wxy - wx * wy) / determinant, 0.0};
-    double chi2 = 0.0;
+    const Eigen::CompleteOrthogonalDecomposition<Matrix> solver(information);
+    solution.unknowns = start + solver.solve(right);
+
     std::vector<double> sizes;
-    for (const Observation& o : observations)
-      sizes.push_back(std::abs(o.estimate.value - line->offset - line->slope * o.number) / o.estimate.sigma);
+    for (const auto& [row, estimate] : observations)
+      sizes.push_back(std::abs(estimate.value - row.dot(solution.unknowns)) / estimate.sigma);
     std::vector<double> sorted = sizes;
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
     const double scale = std::max(1.0, 1.4826 * sorted[sorted.size() / 2]);
+    double chi2 = 0.0;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       const double size = sizes[i] / scale;
       weights[i] = size < 2.0 ? 1.0 : 4.0 / (size * size);
       chi2 += weights[i] * sizes[i] * sizes[i];
     }
-    const double freedom = std::max(1.0, static_cast<double>(observations.size()) - 2.0);
-    line->slope_sigma = std::sqrt(w / determinant * std::max(1.0, chi2 / freedom));
+    const double freedom = std::max(1.0, static_cast<double>(observations.size()) - static_cast<double>(kUnknowns));
+    const Matrix covariance = solver.pseudoInverse() * std::max(1.0, chi2 / freedom);
+    solution.sigmas = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   }
-  return line;
+  return solution;
 }
 
 std::optional<Estimate> weighted_mean(const std::vector<Estimate>& estimates) {
@@ -72,12 +74,16 @@ std::optional<Estimate> weighted_mean(const std::vector<Estimate>& estimates) {
 constexpr double kFrontFloor_m = 0.0005;
 constexpr double kHeightFloor_m = 0.001;
 
+constexpr double kGraphSigma_m = 0.010;
+constexpr double kUsualThickness_m = 0.04;
+
 class JointFitter {
  public:
-  JointFitter(const scan::PointCloud& cloud, const StairGraph& graph, const JointFitOptions& options)
-      : options_(options), corridor_(cloud, graph.model, graph.side) {
+  JointFitter(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& side,
+              const JointFitOptions& options)
+      : options_(options), graph_model_(graph.model), corridor_(cloud, graph.model, side) {
     fit_.model = graph.model;
-    fit_.side = graph.side;
+    fit_.side = side;
     fit_.first = graph.parts.front().step;
     fit_.last = graph.parts.back().step;
   }
@@ -85,14 +91,10 @@ class JointFitter {
   std::optional<JointFit> run() {
     for (int pass = 0; pass < options_.passes; ++pass) {
       if (!measure()) return std::nullopt;
-      fit_depths();
-      fit_heights();
+      fit_steps();
+      fit_direction();
       fit_sides();
     }
-    if (!measure()) return std::nullopt;
-    fit_depths();
-    fit_heights();
-    fit_sides();
     return fit_;
   }
 
@@ -127,46 +129,76 @@ class JointFitter {
     return true;
   }
 
-  void fit_depths() {
-    std::vector<Observation> fronts;
+  void fit_direction() {
     std::vector<Estimate> turns;
-    for (const StepMeasurement& step : steps_) {
-      if (step.front) fronts.push_back({step.number, *step.front});
+    for (const StepMeasurement& step : steps_)
       if (step.turn) turns.push_back(*step.turn);
-    }
+    const std::optional<Estimate> turn = weighted_mean(turns);
+    if (!turn) return;
     StairModel& model = fit_.model;
     const Eigen::Vector3d left = model.step(0).left();
-    if (fronts.size() >= 2) {
-      if (const std::optional<Line> line = fit_line(fronts, kFrontFloor_m)) {
-        model.depth_m = line->slope;
-        fit_.sigmas.depth_m = line->slope_sigma;
-        model.nosing -= model.descent * (line->offset + model.nosing.dot(model.descent));
-      }
-    }
-    if (const std::optional<Estimate> turn = weighted_mean(turns)) {
-      // Turn about the middle of the first nosing, where the fronts were measured.
-      model.nosing += left * (fit_.side.middle() - model.nosing.dot(left));
-      model.descent = (model.descent + turn->value * left).normalized();
-      fit_.sigmas.heading_rad = turn->sigma;
-      const double middle = model.nosing.dot(model.step(0).left());
-      fit_.side = {middle - 0.5 * fit_.side.length(), middle + 0.5 * fit_.side.length()};
-    }
+    // Turn about the middle of the first nosing, where the fronts were measured.
+    model.nosing += left * (fit_.side.middle() - model.nosing.dot(left));
+    model.descent = (model.descent + turn->value * left).normalized();
+    fit_.sigmas.heading_rad = turn->sigma;
+    const double middle = model.nosing.dot(model.step(0).left());
+    fit_.side = {middle - 0.5 * fit_.side.length(), middle + 0.5 * fit_.side.length()};
   }
 
-  void fit_heights() {
-    std::vector<Observation> heights;
+  std::vector<Observation> observations() const {
+    const StairModel& model = fit_.model;
+    std::vector<Observation> rows;
+    const auto add = [&](const Row& row, double value, double sigma, double floor) {
+      rows.push_back({row, {value, std::hypot(sigma, floor)}});
+    };
+    // What the graph says keeps the unknowns that the points leave open.
+    add(Row::Unit(kDepth), graph_model_.depth_m, kGraphSigma_m, 0.0);
+    add(Row::Unit(kRise), graph_model_.height_m, kGraphSigma_m, 0.0);
+    add(Row::Unit(kThickness), kUsualThickness_m, kUsualThickness_m, 0.0);
     for (const StepMeasurement& step : steps_) {
-      if (step.surface)
-        heights.push_back({step.number, *step.surface});
-      else if (step.nosing)
-        heights.push_back({step.number, *step.nosing});
+      const double j = step.number;
+      Row front = Row::Zero();
+      front[kFront] = 1.0;
+      front[kDepth] = j;
+      Row surface = Row::Zero();
+      surface[kHeight] = 1.0;
+      surface[kRise] = j;
+      if (step.front) add(front, step.front->value, step.front->sigma, kFrontFloor_m);
+      if (step.surface) add(surface, step.surface->value, step.surface->sigma, kHeightFloor_m);
+      if (step.underside) {
+        Row underside = surface;
+        underside[kThickness] = -1.0;
+        add(underside, step.underside->value, step.underside->sigma, kHeightFloor_m);
+      }
+      if (step.nosing && !step.surface) {
+        // The line of sight rises by `slope`; the nosing lies on it, wherever along u that is.
+        double slope = 0.0;
+        double foot = step.nosing_u;
+        if (const auto& sensor = corridor_.sensor()) {
+          foot = -sensor->dot(model.descent);
+          slope = (step.nosing->value - sensor->z()) / (step.nosing_u - foot);
+        }
+        add(surface - slope * front, step.nosing->value - slope * step.nosing_u, step.nosing->sigma, kHeightFloor_m);
+      }
     }
-    if (heights.size() < 2) return;
-    const std::optional<Line> line = fit_line(heights, kHeightFloor_m);
-    if (!line) return;
-    fit_.model.height_m = line->slope;
-    fit_.sigmas.height_m = line->slope_sigma;
-    fit_.model.nosing.z() = line->offset;
+    return rows;
+  }
+
+  void fit_steps() {
+    const std::vector<Observation> rows = observations();
+    if (rows.empty()) return;
+    StairModel& model = fit_.model;
+    const double front = -model.nosing.dot(model.descent);
+    Row start;
+    start << front, model.depth_m, model.nosing.z(), model.height_m, model.tread_thickness_m;
+    const Solution solution = solve(rows, start);
+    model.nosing -= model.descent * (solution.unknowns[kFront] - front);
+    model.nosing.z() = solution.unknowns[kHeight];
+    model.depth_m = solution.unknowns[kDepth];
+    model.height_m = solution.unknowns[kRise];
+    model.tread_thickness_m = solution.unknowns[kThickness];
+    fit_.sigmas.depth_m = solution.sigmas[kDepth];
+    fit_.sigmas.height_m = solution.sigmas[kRise];
   }
 
   void fit_sides() {
@@ -185,6 +217,7 @@ class JointFitter {
   }
 
   const JointFitOptions& options_;
+  const StairModel graph_model_;
   StairCorridor corridor_;
   JointFit fit_;
   std::vector<StepMeasurement> steps_;
@@ -198,9 +231,9 @@ std::string JointFitOptions::problem() const {
   return measurement.problem();
 }
 
-std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph,
+std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& side,
                                     const JointFitOptions& options) {
-  return JointFitter(cloud, graph, options).run();
+  return JointFitter(cloud, graph, side, options).run();
 }
 
 }  // namespace stairway::detect

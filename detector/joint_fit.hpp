@@ -14,7 +14,7 @@ namespace stairway::detect {
 
 struct JointFitOptions {
   StepMeasurementOptions measurement;
-  int passes = 4;            ///< of measuring all steps and fitting the model to them
+  int passes = 6;            ///< of measuring all steps and fitting the model to them
   int max_unseen_steps = 2;  ///< the stairway ends after this many steps in a row of which no point is found
 
   std::string problem() const;
@@ -36,8 +36,10 @@ struct JointFit {
 /// Starts from a graph's model, measures every step, fits, and measures again, looking for further steps at both ends.
 /// The points are those of the cloud before thinning.
 ///
+/// @param side  what the graph's parts span along left() of its model [m].
+///
 /// @return the fit; nothing when fewer than two steps show points.
-std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph,
+std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& side,
                                     const JointFitOptions& options = {});
 
 }  // namespace stairway::detect

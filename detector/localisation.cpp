@@ -24,6 +24,27 @@ double standard_error(const std::vector<double>& values) {
   return std::sqrt((array - array.mean()).square().sum() / (n - 1.0) / n);
 }
 
+Eigen::Vector3d mid_nosing(const FittedStairway& stairway, int number) {
+  const StepFrame step = stairway.model.step(number);
+  return step.nosing + step.left() * (stairway.side.middle() - step.nosing.dot(step.left()));
+}
+
+bool lies_within(const FittedStairway& small, const FittedStairway& large) {
+  const StairModel& model = large.model;
+  int inside = 0;
+  for (int number = small.first; number <= small.last; ++number) {
+    const Eigen::Vector3d nosing = mid_nosing(small, number);
+    const Eigen::Vector3d off = nosing - model.nosing;
+    const double steps_up = -off.dot(model.descent) / model.depth_m;
+    const double above_line = off.z() - steps_up * model.height_m;
+    const double side = nosing.dot(model.step(0).left());
+    if (steps_up > large.first - 1.5 && steps_up < large.last + 1.5 && std::abs(above_line) < 1.5 * model.height_m &&
+        side > large.side.low - 0.3 && side < large.side.high + 0.3)
+      ++inside;
+  }
+  return 2 * inside > small.last - small.first + 1;
+}
+
 // The number of the step whose riser stands on the ground, if the way down to it is short enough to be believed.
 int first_step_number(const StairModel& model, int first_seen, const LocalisationOptions& options) {
   const int on_ground = static_cast<int>(std::lround((kGround_m - model.nosing.z()) / model.height_m)) + 1;
@@ -54,6 +75,16 @@ FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& pa
           .last = graph.parts.back().step,
           .view = winner.view,
           .score = winner.score};
+}
+
+std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stairways) {
+  std::vector<FittedStairway> kept;
+  for (FittedStairway& candidate : stairways) {
+    const bool known = std::any_of(kept.begin(), kept.end(),
+                                   [&](const FittedStairway& other) { return lies_within(candidate, other); });
+    if (!known) kept.push_back(std::move(candidate));
+  }
+  return kept;
 }
 
 Stairway localise(const FittedStairway& fitted, const LocalisationOptions& options) {

@@ -31,6 +31,10 @@ struct FittedStairway {
 /// What the parts of a graph say about the stairway's ends.
 FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& parts);
 
+/// Drops every stairway of which more than half the steps lie within one with a higher score: it is the same one, found
+/// from other parts. The order is kept.
+std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stairways);
+
 /// Turns a fit into the stairway a robot can climb: first step on the ground, ends, anchor and every nosing.
 ///
 /// A stairway that seems to begin above the ground (z = 0) is continued down to it; steps at or below it are dropped.

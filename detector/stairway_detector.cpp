@@ -26,7 +26,7 @@ std::vector<StairPart> find_parts(const scan::PointCloud& cloud, const std::vect
 
 void refine(const scan::PointCloud& cloud, const Winner& winner, const JointFitOptions& options,
             FittedStairway& fitted) {
-  const std::optional<JointFit> joint = fit_jointly(cloud, winner.graph, options);
+  const std::optional<JointFit> joint = fit_jointly(cloud, winner.graph, fitted.side, options);
   if (!joint) return;
   fitted.model = joint->model;
   fitted.side = joint->side;
@@ -72,7 +72,8 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
   }
   begin_stage("localisation");
   Detection detection;
-  for (const FittedStairway& stairway : fitted) detection.stairways.push_back(localise(stairway, options.localisation));
+  for (const FittedStairway& stairway : without_duplicates(std::move(fitted)))
+    detection.stairways.push_back(localise(stairway, options.localisation));
   if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
   return detection;
 }

@@ -3,6 +3,7 @@
 #include "detector/step_measurement.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -122,6 +123,16 @@ class StepSurvey {
            options_.min_coverage * static_cast<double>(strips);
   }
 
+  static bool fills(const std::vector<double>& heights, double low, double high) {
+    constexpr std::size_t kRows = 4;
+    constexpr double kFairShare = 0.3;
+    std::array<std::size_t, kRows> rows{};
+    for (const double z : heights)
+      ++rows[std::min(kRows - 1, static_cast<std::size_t>((z - low) / (high - low) * static_cast<double>(kRows)))];
+    const double fair = kFairShare * static_cast<double>(heights.size()) / static_cast<double>(kRows);
+    return std::all_of(rows.begin(), rows.end(), [&](std::size_t n) { return static_cast<double>(n) >= fair; });
+  }
+
   void measure_front() {
     const double margin = std::min(spot_radius(), 0.25 * (top_z_ - visible_bottom()));
     const double low = visible_bottom() + margin;
@@ -145,10 +156,12 @@ class StepSurvey {
     double count = 0.0;
     double variance_v = 0.0;
     std::vector<double> sides;
+    std::vector<double> heights;
     for (int pass = 0; pass < 2; ++pass) {
       double sum_u = 0.0, sum_v = 0.0, sum_uv = 0.0, sum_vv = 0.0;
       count = 0.0;
       sides.clear();
+      heights.clear();
       for (const StairPoint& p : points_) {
         const double v = p.v - side_.middle();
         const double u = p.u - center;
@@ -161,6 +174,7 @@ class StepSurvey {
         sum_uv += u * v;
         sum_vv += v * v;
         sides.push_back(p.v);
+        heights.push_back(z);
       }
       if (count < options_.min_points) return;
       variance_v = sum_vv / count - square(sum_v / count);
@@ -171,7 +185,9 @@ class StepSurvey {
     const double behind_density =
         static_cast<double>(behind) / std::max(model_.depth_m - 2.0 * options_.search_m, 0.01);
     if (on_density < options_.min_contrast * behind_density || !covers(sides)) return;
-    const double sigma = options_.range_sigma_m / std::sqrt(count);
+    double sigma = options_.range_sigma_m / std::sqrt(count);
+    // The front of an open tread is a bar in which the spot finds hardly a clean place.
+    if (!fills(heights, low, high)) sigma = std::hypot(sigma, 0.5 * spot_radius());
     result_.front = Estimate{value, sigma};
     if (variance_v > 0.0) result_.turn = Estimate{turn, sigma / std::sqrt(variance_v)};
   }
@@ -256,11 +272,12 @@ class StepSurvey {
       columns[static_cast<std::size_t>(column)].push_back({q.z, p.u < front_u_ + 0.5 * model_.depth_m});
     }
     result_.nosing = across_columns(columns, 1.0);
+    result_.nosing_u = front_u_;
   }
 
   std::optional<Estimate> measure_end(double end) const {
     const double sign = end > side_.middle() ? 1.0 : -1.0;
-    const double low = visible_bottom();
+    const double low = std::max(visible_bottom(), top_z_ - 0.10);
     const auto count = static_cast<std::size_t>(std::max(1.0, (top_z_ - low) / 0.02));
     std::vector<std::vector<Crossing>> rows(count);
     for (const StairPoint& p : points_) {

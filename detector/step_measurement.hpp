@@ -26,7 +26,8 @@ struct StepMeasurement {
   std::optional<Estimate> turn;       ///< slope du/dv of that front [rad]: how far s is turned from it
   std::optional<Estimate> surface;    ///< z of the tread
   std::optional<Estimate> underside;  ///< z of the tread's underside
-  std::optional<Estimate> nosing;     ///< z of the top front edge, where the line of sight leaves the front
+  std::optional<Estimate> nosing;     ///< z at `nosing_u` of the line of sight that leaves the front at its top
+  double nosing_u = 0.0;
   std::optional<Estimate> right_end;  ///< v at which the line of sight leaves the front to the right
   std::optional<Estimate> left_end;   ///< likewise to the left
 
@@ -51,6 +52,9 @@ class StairCorridor {
   /// @param cloud  all points, not thinned: edges are found between neighbouring beams.
   /// Cost: one pass over the cloud.
   StairCorridor(const scan::PointCloud& cloud, const StairModel& model, const Interval& side);
+
+  /// Where the sensor stood, in the frame of the cloud.
+  const std::optional<Eigen::Vector3d>& sensor() const { return sensor_; }
 
   /// Measures steps `first`..`last` of `model`, which may have moved a little since the corridor was cut.
   /// @param side  of the stairway, along left() of the model.
