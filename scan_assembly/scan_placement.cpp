@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMaxBeams = 65536;
 
-HostStamp beam_stamp_ns(const LaserScan& scan, std::size_t beam) {
-  return scan.first_beam_stamp_ns + std::llround(static_cast<double>(beam) * scan.beam_interval_ns);
+double usable_interval_ns(const LaserScan& scan) {
+  const bool is_usable = scan.beam_interval_ns >= 0.0 && scan.beam_interval_ns <= 1e9;
+  return is_usable ? scan.beam_interval_ns : 0.0;
 }
 
 // The field to count a beam in that gives no point; null for one that does.
@@ -49,6 +50,10 @@ std::size_t end_of_segment(const LaserScan& scan, HostStamp end_ns, std::size_t 
 }
 
 }  // namespace
+
+HostStamp beam_stamp_ns(const LaserScan& scan, std::size_t beam) {
+  return scan.first_beam_stamp_ns + std::llround(static_cast<double>(beam) * usable_interval_ns(scan));
+}
 
 std::string RangeLimits::problem() const {
   if (!(min_range_m >= 0.0 && min_range_m < max_range_m)) return "0 <= min_range < max_range is needed";
@@ -83,8 +88,7 @@ void ScanPlacer::place(const LaserScan& scan, const AngleTrack& track, PlacedSca
   placed.counts = {};
   const std::size_t beams = std::min({scan.ranges_m.size(), scan.statuses.size(), kMaxBeams});
   if (beams == 0) return;
-  const bool has_geometry = std::isfinite(scan.beam_interval_ns) && std::isfinite(scan.first_angle_rad) &&
-                            std::isfinite(scan.angle_increment_rad);
+  const bool has_geometry = std::isfinite(scan.first_angle_rad) && std::isfinite(scan.angle_increment_rad);
   if (!has_geometry) {
     placed.counts.invalid = beams;
     return;
@@ -124,7 +128,7 @@ void ScanPlacer::update_table(const LaserScan& scan, std::size_t beams) {
 std::size_t ScanPlacer::place_segment(const LaserScan& scan, const AngleSegment& segment, std::size_t begin,
                                       std::size_t end, PlacedScan& placed) const {
   const Vector3d lever_arm = calibration_.T_disk_lidar.translation();
-  const double turn_per_beam_rad = segment.speed_rad_per_ns * scan.beam_interval_ns;
+  const double turn_per_beam_rad = segment.speed_rad_per_ns * usable_interval_ns(scan);
   const double turn_cos = std::cos(turn_per_beam_rad), turn_sin = std::sin(turn_per_beam_rad);
   const double first_rad = segment.at(beam_stamp_ns(scan, begin));
   double c = std::cos(first_rad), s = std::sin(first_rad);

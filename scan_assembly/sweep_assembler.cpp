@@ -22,10 +22,6 @@ constexpr std::uint64_t kMaxGap = 100000;  // scans; beyond it the stream began 
 constexpr double kRounding_turns = 1e-9;   // keeps an angle on the boundary on its side of it
 constexpr std::size_t kMaxUntaken = 2;
 
-HostStamp beam_stamp_ns(const LaserScan& scan, std::size_t beam) {
-  return scan.first_beam_stamp_ns + std::llround(static_cast<double>(beam) * scan.beam_interval_ns);
-}
-
 HostStamp last_beam_stamp_ns(const LaserScan& scan) {
   return beam_stamp_ns(scan, std::max<std::size_t>(1, scan.ranges_m.size()) - 1);
 }

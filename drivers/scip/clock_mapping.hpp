@@ -48,7 +48,7 @@ struct ClockQuality {
 /// only be right to half a period. Arrivals are late by a constant and by delays that are never negative, so the line
 /// is laid under them as high as it goes: the edge of their lower hull below their mean, which is the line with the
 /// smallest sum of delays. The device's millisecond rounding does not enter, even when its period is a whole number of
-/// them. Bounded by `window_s`; O(scans in the window) for a scan, 5 us at 40 Hz and 6 s. Origin: Moon, Skelly,
+/// them. Bounded by `window_s`; O(scans in the window) for each scan, 1 us at 40 Hz and 6 s. Origin: Moon, Skelly,
 /// Towsley, "Estimation and removal of clock skew", INFOCOM 1999; Olson, "A passive solution to the sensor
 /// synchronization problem", IROS 2010.
 class ClockMapping {
