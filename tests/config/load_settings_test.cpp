@@ -3,6 +3,7 @@
 #include "config/load_settings.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <numbers>

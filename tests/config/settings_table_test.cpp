@@ -3,6 +3,7 @@
 #include "config/settings_table.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cctype>
 #include <filesystem>

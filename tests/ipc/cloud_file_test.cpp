@@ -3,6 +3,7 @@
 #include "ipc/cloud_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
