@@ -34,7 +34,14 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
       .real("max_tread_depth", detector.plane_finder.max_tread_depth_m, kMillimetre, {20, 2000},
             "horizontal extent of a tread in the direction of ascent")
       .real("min_width", detector.plane_finder.min_width_m, kMillimetre, {10, 2000},
-            "risers and treads that show less of their width are left out");
+            "risers and treads that show less of their width are left out")
+      .on_off("find_edges", detector.plane_finder.find_edges, "also look for bars along the nosings of open treads")
+      .real("max_edge_thickness", detector.plane_finder.max_edge_thickness_m, kMillimetre, {1, 1000},
+            "extent of a tread's edge across its length")
+      .real("min_edge_width", detector.plane_finder.min_edge_width_m, kMillimetre, {10, 2000},
+            "extent of a tread's edge along its length")
+      .real("max_edge_tilt", detector.plane_finder.max_edge_tilt_rad, kDegree, {0, 45},
+            "of a tread's edge against the horizontal");
 
   detect::FragmentMergingOptions& merging = detector.fragment_merging;
   Section(table, "detector.fragment_merging")
