@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tools/sim/outline.hpp"
+#include "tools/sim/random.hpp"
+
+namespace stairway::sim {
+namespace {
+
+double total_area(const std::vector<Outline>& pieces) {
+  double sum = 0;
+  for (const auto& piece : pieces) sum += area(piece);
+  return sum;
+}
+
+TEST(SimOutline, subtracting_leaves_the_area_outside_in_pieces_that_do_not_overlap) {
+  const Outline room = rectangle({1, 0}, {8, 6}, 0);
+  for (const double yaw : {0.0, 0.3, 1.2}) {
+    SCOPED_TRACE(yaw);
+    const Outline hole = rectangle({0.5, 0.5}, {2, 1}, yaw);
+    const auto pieces = subtract(room, hole);
+    EXPECT_NEAR(total_area(pieces), 48 - 2, 1e-9);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      EXPECT_FALSE(overlap(pieces[i], hole));
+      for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(overlap(pieces[i], pieces[j]));
+    }
+  }
+}
+
+TEST(SimOutline, subtracting_something_elsewhere_or_everything) {
+  const Outline room = rectangle({0, 0}, {2, 2}, 0);
+  EXPECT_NEAR(total_area(subtract(room, rectangle({9, 0}, {1, 1}, 0.2))), 4.0, 1e-9);
+  EXPECT_NEAR(total_area(subtract(room, rectangle({0, 0}, {5, 5}, 0.2))), 0.0, 1e-9);
+  EXPECT_NEAR(total_area(subtract(room, rectangle({1, 0}, {2, 9}, 0.0))), 2.0, 1e-9);
+}
+
+TEST(SimOutline, hull_holds_all_points_and_turns_left) {
+  Random random{5};
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < 200; ++i) points.emplace_back(random.normal(), random.normal());
+  const Outline hull = convex_hull(points);
+  EXPECT_GT(area(hull), 0);
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d side = hull[(i + 1) % hull.size()] - hull[i];
+    for (const auto& p : points) {
+      const Eigen::Vector2d to_point = p - hull[i];
+      EXPECT_GE(side.x() * to_point.y() - side.y() * to_point.x(), -1e-9);
+    }
+  }
+}
+
+TEST(SimOutline, growing_moves_every_side_outward) {
+  EXPECT_NEAR(area(grown(rectangle({3, 1}, {2, 1}, 0.7), 0.5)), 3.0 * 2.0, 1e-9);
+}
+
+TEST(SimOutline, touching_is_not_overlapping) {
+  const Outline a = rectangle({0, 0}, {2, 2}, 0);
+  EXPECT_FALSE(overlap(a, rectangle({2, 0}, {2, 2}, 0)));
+  EXPECT_TRUE(overlap(a, rectangle({1.9, 0}, {2, 2}, 0)));
+  EXPECT_TRUE(overlap(a, rectangle({0, 0}, {0.1, 0.1}, 1)));
+}
+
+}  // namespace
+}  // namespace stairway::sim
