@@ -157,17 +157,17 @@ TEST(ClockMapping, begins_anew_when_the_device_clock_is_set_back) {
   EXPECT_EQ(mapping.quality().resets, 1U);
 }
 
-TEST(ClockMapping, follows_a_host_clock_that_jumps) {
+TEST(ClockMapping, follows_a_host_clock_that_jumps_within_three_seconds) {
   for (const std::int64_t jump_ns : {-7'000'000'000LL, 7'000'000'000LL, -20'000'000LL, 20'000'000LL}) {
     SCOPED_TRACE(jump_ns);
     SensorModel sensor;
     ClockMapping mapping = make_mapping(sensor);
     ScanTime time;
-    for (std::int64_t turn = 0; turn < 600; ++turn) {
+    for (std::int64_t turn = 0; turn < 440; ++turn) {
       const HostStamp shift_ns = turn < 300 ? 0 : jump_ns;
       time = mapping.add(sensor.device_stamp_ms(turn), sensor.arrival_ns(turn) + shift_ns, true);
     }
-    EXPECT_LT(std::abs(error_ms(time, sensor.true_stamp_ns(599) + jump_ns)), 0.2);
+    EXPECT_LT(std::abs(error_ms(time, sensor.true_stamp_ns(439) + jump_ns)), 0.2);
   }
 }
 

@@ -102,6 +102,23 @@ TEST(ScipReplies, refuse_a_scan_with_too_many_or_too_few_values) {
   EXPECT_FALSE(decode_scan("", request, scan));
 }
 
+TEST(ScipReplies, refuse_data_lines_of_a_wrong_length_even_if_their_sums_fit) {
+  ScanRequest request;
+  request.last_step = 43;  // 132 characters: 64 + 64 + 4
+  const std::string payload(132, '0');
+  const auto decode_lines = [&](std::initializer_list<std::size_t> lengths) {
+    std::string data;
+    append_line(data, "0000");
+    for (const std::size_t length : lengths) append_line(data, payload.substr(0, length));
+    RawScan scan;
+    return decode_scan(data, request, scan);
+  };
+  EXPECT_TRUE(decode_lines({64, 64, 4}));
+  EXPECT_EQ(decode_lines({66, 64, 2}).error(), ScipError::BadForm);
+  EXPECT_EQ(decode_lines({62, 64, 6}).error(), ScipError::BadForm);
+  EXPECT_EQ(decode_lines({132}).error(), ScipError::BadForm);
+}
+
 TEST(ScipReplies, read_what_the_sensor_says_about_itself) {
   const auto version = parse_version(parse_reply(block_of(samples::kVersion))->data);
   ASSERT_TRUE(version);

@@ -204,10 +204,9 @@ TEST(SweepAssembler, takes_a_stream_that_begins_anew_without_inventing_losses) {
 TEST(SweepAssembler, cuts_once_where_the_disk_trembles_about_a_whole_turn) {
   TurningScanner scanner = fast_scanner(0.0);
   Rig rig(scanner);
-  rig.scanner.angle_at_zero_rad = kTurn_rad - 0.1;
   const auto angle_at = [](drivers::HostStamp at_ns) {
     const double seconds = static_cast<double>(at_ns) * 1e-9;
-    return kTurn_rad - 0.1 + 0.2 * seconds + 0.005 * std::sin(60.0 * seconds);
+    return kTurn_rad - 0.025 + 0.05 * seconds + 0.005 * std::sin(60.0 * seconds);
   };
   for (std::uint64_t n = 0; n < 40; ++n) {
     for (drivers::HostStamp ms = -5; ms < 25; ms += 5) {
