@@ -100,6 +100,8 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
       .whole("passes", joint_fit.passes, 1, 100, "of measuring all steps and fitting the model to them")
       .whole("max_unseen_steps", joint_fit.max_unseen_steps, 0, 100,
              "a stairway ends after this many steps in a row without points")
+      .real("min_seen_share", joint_fit.min_seen_share, kPlain, {0, 1},
+            "of the steps from the first to the last seen, so many must show points")
       .real("range_sigma", joint_fit.measurement.range_sigma_m, kMillimetre, {0.1, 500}, "noise of one point")
       .real("spot", joint_fit.measurement.spot_rad, kMilliradian, {0, 100},
             "full angle of the sensor's beam, whose points at edges are mixed")
