@@ -99,17 +99,7 @@ class Competition {
     const int steps = graph.seen_steps();
     if (steps <= most_steps_) return;
     most_steps_ = steps;
-    const double slope = std::atan2(graph.model.height_m, graph.model.depth_m);
-    result_.runner_up = Rejection{.reason = rule,
-                                  .detail = "the best candidate has parts of " + std::to_string(steps) + " steps",
-                                  .figures = {{"steps", steps},
-                                              {"min_steps", options_.confirmation.min_steps},
-                                              {"step_height", graph.model.height_m},
-                                              {"step_depth", graph.model.depth_m},
-                                              {"pitch", slope},
-                                              {"x", graph.model.nosing.x()},
-                                              {"y", graph.model.nosing.y()},
-                                              {"z", graph.model.nosing.z()}}};
+    result_.runner_up = rejection(rule, graph.model, steps, options_.confirmation);
   }
 
   const std::vector<StairPart>& parts_;
@@ -125,6 +115,20 @@ std::string CompetitionOptions::problem() const {
   for (const std::string& problem : {initialisation.problem(), extension.problem(), confirmation.problem()})
     if (!problem.empty()) return problem;
   return {};
+}
+
+Rejection rejection(const std::string& rule, const StairModel& model, int seen_steps,
+                    const ConfirmationOptions& confirmation) {
+  return {.reason = rule,
+          .detail = "the best candidate shows " + std::to_string(seen_steps) + " steps",
+          .figures = {{"steps", seen_steps},
+                      {"min_steps", confirmation.min_steps},
+                      {"step_height", model.height_m},
+                      {"step_depth", model.depth_m},
+                      {"pitch", std::atan2(model.height_m, model.depth_m)},
+                      {"x", model.nosing.x()},
+                      {"y", model.nosing.y()},
+                      {"z", model.nosing.z()}}};
 }
 
 CompetitionResult compete(const std::vector<StairPart>& parts, const CompetitionOptions& options) {

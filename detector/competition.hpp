@@ -29,6 +29,10 @@ struct CompetitionOptions {
   std::string problem() const;
 };
 
+/// Words a candidate that broke a rule for the answer.
+Rejection rejection(const std::string& rule, const StairModel& model, int seen_steps,
+                    const ConfirmationOptions& confirmation);
+
 /// A graph that won its parts.
 struct Winner {
   StairGraph graph;

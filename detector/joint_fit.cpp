@@ -101,9 +101,12 @@ class JointFitter {
  private:
   std::vector<StepMeasurement> seen(int first, int last) const {
     std::vector<StepMeasurement> steps = corridor_.measure(fit_.model, fit_.side, first, last, options_.measurement);
-    std::erase_if(steps, [](const StepMeasurement& step) { return !step.seen(); });
+    std::erase_if(steps, [&](const StepMeasurement& step) { return !step.seen() || is_ground(step.number); });
     return steps;
   }
+
+  // The floor the robot stands on looks like a tread at z = 0, but is no step.
+  bool is_ground(int number) const { return std::abs(fit_.model.step(number).nosing.z()) < 0.5 * fit_.model.height_m; }
 
   // Measures the known steps and looks for more beyond both ends.
   bool measure() {
@@ -112,8 +115,7 @@ class JointFitter {
       int unseen = 0;
       for (int number = direction > 0 ? fit_.last + 1 : fit_.first - 1; unseen < options_.max_unseen_steps;
            number += direction) {
-        const double height = fit_.model.step(number).nosing.z();
-        if (direction < 0 && std::abs(height) < 0.5 * fit_.model.height_m) break;  // the floor itself
+        if (is_ground(number)) break;
         if (std::abs(number) > 200) break;
         std::vector<StepMeasurement> more = seen(number, number);
         unseen = more.empty() ? unseen + 1 : 0;
@@ -234,6 +236,14 @@ std::string JointFitOptions::problem() const {
 std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& side,
                                     const JointFitOptions& options) {
   return JointFitter(cloud, graph, side, options).run();
+}
+
+std::string broken_rule(const JointFit& fit, const StepLimits& limits, const ConfirmationOptions& confirmation,
+                        const JointFitOptions& options) {
+  if (std::string rule = broken_rule(fit.model, fit.seen_steps, confirmation); !rule.empty()) return rule;
+  if (!limits.allow(fit.model.height_m, fit.model.depth_m)) return "step-size-out-of-range";
+  if (fit.seen_steps < options.min_seen_share * (fit.last - fit.first + 1)) return "steps-missing";
+  return {};
 }
 
 }  // namespace stairway::detect

@@ -17,6 +17,8 @@ struct JointFitOptions {
   int passes = 6;            ///< of measuring all steps and fitting the model to them
   int max_unseen_steps = 2;  ///< the stairway ends after this many steps in a row of which no point is found
 
+  double min_seen_share = 0.6;  ///< of the steps from the first to the last seen, so many must show points
+
   std::string problem() const;
 };
 
@@ -41,5 +43,10 @@ struct JointFit {
 /// @return the fit; nothing when fewer than two steps show points.
 std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& side,
                                     const JointFitOptions& options = {});
+
+/// The rule a joint fit breaks, or an empty string when the points bear the stairway out.
+/// Rules: those of broken_rule() for graphs, "step-size-out-of-range", "steps-missing".
+std::string broken_rule(const JointFit& fit, const StepLimits& limits, const ConfirmationOptions& confirmation,
+                        const JointFitOptions& options);
 
 }  // namespace stairway::detect

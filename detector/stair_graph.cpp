@@ -90,11 +90,15 @@ std::string ConfirmationOptions::problem() const {
   return {};
 }
 
-std::string broken_rule(const StairGraph& graph, const ConfirmationOptions& options) {
-  const double slope = std::atan2(graph.model.height_m, graph.model.depth_m);
-  if (graph.seen_steps() < options.min_steps) return "too-few-steps";
+std::string broken_rule(const StairModel& model, int seen_steps, const ConfirmationOptions& options) {
+  const double slope = std::atan2(model.height_m, model.depth_m);
+  if (seen_steps < options.min_steps) return "too-few-steps";
   if (slope < options.min_slope_rad || slope > options.max_slope_rad) return "slope-out-of-range";
   return {};
+}
+
+std::string broken_rule(const StairGraph& graph, const ConfirmationOptions& options) {
+  return broken_rule(graph.model, graph.seen_steps(), options);
 }
 
 StairScore score(const StairGraph& graph, const std::vector<StairPart>& parts, View view) {

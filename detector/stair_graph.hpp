@@ -57,6 +57,9 @@ struct ConfirmationOptions {
   std::string problem() const;
 };
 
+/// The rule that a stairway of this model breaks when parts of `seen_steps` steps were found.
+std::string broken_rule(const StairModel& model, int seen_steps, const ConfirmationOptions& options);
+
 /// The rule a graph breaks (section "Stairway Confirmation"), or an empty string when it is a stairway.
 /// Rules: "slope-out-of-range", "too-few-steps".
 std::string broken_rule(const StairGraph& graph, const ConfirmationOptions& options = {});

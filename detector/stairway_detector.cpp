@@ -24,16 +24,37 @@ std::vector<StairPart> find_parts(const scan::PointCloud& cloud, const std::vect
   return parts;
 }
 
-void refine(const scan::PointCloud& cloud, const Winner& winner, const JointFitOptions& options,
-            FittedStairway& fitted) {
-  const std::optional<JointFit> joint = fit_jointly(cloud, winner.graph, fitted.side, options);
-  if (!joint) return;
-  fitted.model = joint->model;
-  fitted.side = joint->side;
-  fitted.side_sigma_m = joint->side_sigma_m;
-  fitted.sigmas = joint->sigmas;
-  fitted.first = joint->first;
-  fitted.last = joint->last;
+FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
+  return {.model = fit.model,
+          .side = fit.side,
+          .side_sigma_m = fit.side_sigma_m,
+          .sigmas = fit.sigmas,
+          .first = fit.first,
+          .last = fit.last,
+          .view = winner.view,
+          .score = winner.score};
+}
+
+// Fits every winner to the points; those that the points do not bear out are named in the answer.
+std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const std::vector<Winner>& winners,
+                                   const std::vector<StairPart>& parts, const DetectorOptions& options,
+                                   Detection& detection) {
+  std::vector<FittedStairway> fitted;
+  const CompetitionOptions& rules = options.competition;
+  for (const Winner& winner : winners) {
+    const Interval side = from_parts(winner, parts).side;
+    const std::optional<JointFit> joint = fit_jointly(cloud, winner.graph, side, options.joint_fit);
+    const std::string rule =
+        joint ? broken_rule(*joint, rules.initialisation.limits, rules.confirmation, options.joint_fit)
+              : std::string("no-points-on-steps");
+    if (rule.empty()) {
+      fitted.push_back(as_fitted(*joint, winner));
+    } else {
+      detection.rejected.push_back(rejection(rule, joint ? joint->model : winner.graph.model,
+                                             joint ? joint->seen_steps : 0, rules.confirmation));
+    }
+  }
+  return fitted;
 }
 
 }  // namespace
@@ -65,16 +86,17 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
   begin_stage("stair_graph");
   const CompetitionResult competition = compete(parts, options.competition);
   begin_stage("fit");
+  Detection detection;
+  if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
   std::vector<FittedStairway> fitted;
-  for (const Winner& winner : competition.winners) {
-    fitted.push_back(from_parts(winner, parts));
-    if (options.competition.strategy == Strategy::Joint) refine(cloud, winner, options.joint_fit, fitted.back());
+  if (options.competition.strategy == Strategy::Joint) {
+    fitted = refine(cloud, competition.winners, parts, options, detection);
+  } else {
+    for (const Winner& winner : competition.winners) fitted.push_back(from_parts(winner, parts));
   }
   begin_stage("localisation");
-  Detection detection;
   for (const FittedStairway& stairway : without_duplicates(std::move(fitted)))
     detection.stairways.push_back(localise(stairway, options.localisation));
-  if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
   return detection;
 }
 
