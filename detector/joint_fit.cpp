@@ -9,8 +9,9 @@
 namespace stairway::detect {
 namespace {
 
-// a + j d is the front of step j along the ascent, b + j h its height, t the thickness of its tread.
-enum Unknown { kFront, kDepth, kHeight, kRise, kThickness, kUnknowns };
+// a + j d is the nosing of step j along the ascent, b + j h its height, o how far it stands out before its front, t the
+// thickness of its tread.
+enum Unknown { kNosing, kDepth, kHeight, kRise, kOverhang, kThickness, kUnknowns };
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
 
 struct Observation {
@@ -75,6 +76,7 @@ constexpr double kFrontFloor_m = 0.0005;
 constexpr double kHeightFloor_m = 0.001;
 
 constexpr double kGraphSigma_m = 0.010;
+constexpr double kUsualOverhang_m = 0.015;
 constexpr double kUsualThickness_m = 0.04;
 
 class JointFitter {
@@ -156,12 +158,14 @@ class JointFitter {
     // What the graph says keeps the unknowns that the points leave open.
     add(Row::Unit(kDepth), graph_model_.depth_m, kGraphSigma_m, 0.0);
     add(Row::Unit(kRise), graph_model_.height_m, kGraphSigma_m, 0.0);
+    add(Row::Unit(kOverhang), 0.0, kUsualOverhang_m, 0.0);
     add(Row::Unit(kThickness), kUsualThickness_m, kUsualThickness_m, 0.0);
     for (const StepMeasurement& step : steps_) {
       const double j = step.number;
-      Row front = Row::Zero();
-      front[kFront] = 1.0;
-      front[kDepth] = j;
+      Row nosing = Row::Zero();
+      nosing[kNosing] = 1.0;
+      nosing[kDepth] = j;
+      const Row front = nosing + Row(Row::Unit(kOverhang));
       Row surface = Row::Zero();
       surface[kHeight] = 1.0;
       surface[kRise] = j;
@@ -180,7 +184,7 @@ class JointFitter {
           foot = -sensor->dot(model.descent);
           slope = (step.nosing->value - sensor->z()) / (step.nosing_u - foot);
         }
-        add(surface - slope * front, step.nosing->value - slope * step.nosing_u, step.nosing->sigma, kHeightFloor_m);
+        add(surface - slope * nosing, step.nosing->value - slope * step.nosing_u, step.nosing->sigma, kHeightFloor_m);
       }
     }
     return rows;
@@ -190,14 +194,15 @@ class JointFitter {
     const std::vector<Observation> rows = observations();
     if (rows.empty()) return;
     StairModel& model = fit_.model;
-    const double front = -model.nosing.dot(model.descent);
+    const double place = -model.nosing.dot(model.descent);
     Row start;
-    start << front, model.depth_m, model.nosing.z(), model.height_m, model.tread_thickness_m;
+    start << place, model.depth_m, model.nosing.z(), model.height_m, model.overhang_m, model.tread_thickness_m;
     const Solution solution = solve(rows, start);
-    model.nosing -= model.descent * (solution.unknowns[kFront] - front);
+    model.nosing -= model.descent * (solution.unknowns[kNosing] - place);
     model.nosing.z() = solution.unknowns[kHeight];
     model.depth_m = solution.unknowns[kDepth];
     model.height_m = solution.unknowns[kRise];
+    model.overhang_m = solution.unknowns[kOverhang];
     model.tread_thickness_m = solution.unknowns[kThickness];
     fit_.sigmas.depth_m = solution.sigmas[kDepth];
     fit_.sigmas.height_m = solution.sigmas[kRise];

@@ -23,6 +23,7 @@ struct StairModel {
   double depth_m = 0.0;                                ///< d
   Eigen::Vector3d descent = Eigen::Vector3d::UnitX();  ///< s at step 0: horizontal, unit, facing the descent
   Eigen::Vector3d nosing = Eigen::Vector3d::Zero();    ///< P_stair [m]
+  double overhang_m = 0.0;                             ///< how far a nosing stands out before the riser below it
   double tread_thickness_m = 0.0;                      ///< from a tread to its underside; 0 when none was seen
 
   /// Eq 6 with the height of eq 9: P_est,j = P - j d s + j h z (the paper prints +j d s, but s faces the descent).

@@ -70,7 +70,7 @@ class StepSurvey {
       : model_(model), side_(side), points_(points), sensor_(sensor), options_(options) {
     const StairAxes axes(model);
     const StairPoint nosing = axes(model.step(number).nosing);
-    front_u_ = nosing.u;
+    front_u_ = nosing.u + model.overhang_m;
     top_z_ = nosing.z;
     reach_ = 2.5 * options.range_sigma_m;
     result_.number = number;
