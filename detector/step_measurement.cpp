@@ -10,9 +10,11 @@
 namespace stairway::detect {
 namespace {
 
-constexpr double kStrip_m = 0.10;      // for coverage
-constexpr double kColumn_m = 0.05;     // for edges
-constexpr double kEdgeReach_m = 0.09;  // an edge is looked for this far from its place
+constexpr double kStrip_m = 0.10;       // for coverage
+constexpr double kColumn_m = 0.05;      // for edges
+constexpr double kEdgeReach_m = 0.09;   // an edge is looked for this far from its place
+constexpr double kEndReach_m = 0.4;     // likewise for the ends of the stairway
+constexpr double kFrontReach_m = 0.07;  // a point is on a front within this distance
 constexpr double kFarthestBehind_m = 30.0;
 
 /// A point in the axes of the model.
@@ -275,21 +277,37 @@ class StepSurvey {
     result_.nosing_u = front_u_;
   }
 
+  // Like the nosing, but what stands in the way of the front (a post, a bystander) says nothing about its end.
   std::optional<Estimate> measure_end(double end) const {
-    const double sign = end > side_.middle() ? 1.0 : -1.0;
+    const double outward = end > side_.middle() ? 1.0 : -1.0;
+    const double inside = std::min(kEndReach_m, 0.5 * side_.length());
     const double low = std::max(visible_bottom(), top_z_ - 0.10);
     const auto count = static_cast<std::size_t>(std::max(1.0, (top_z_ - low) / 0.02));
     std::vector<std::vector<Crossing>> rows(count);
+    std::vector<std::vector<double>> hidden(count);
     for (const StairPoint& p : points_) {
-      if (std::abs(p.v - end) > 2.0) continue;
       const StairPoint q = at_front(p);
-      if (std::abs(q.v - end) > 2.0 * kEdgeReach_m) continue;
+      const double beyond_end = outward * (q.v - end);
+      if (beyond_end < -inside || beyond_end > kEndReach_m) continue;
       const double row = (q.z - low) / (top_z_ - low) * static_cast<double>(count);
       if (row < 0.0 || row >= static_cast<double>(count)) continue;
-      const bool on = std::abs(p.u - front_u_) < options_.search_m + 0.02;
-      rows[static_cast<std::size_t>(row)].push_back({sign * q.v, on});
+      const auto index = static_cast<std::size_t>(row);
+      const double depth = p.u - front_u_;
+      if (depth < -kFrontReach_m) {
+        hidden[index].push_back(outward * q.v);
+      } else {
+        rows[index].push_back({outward * q.v, depth < kFrontReach_m});
+      }
     }
-    return across_columns(rows, sign);
+    for (std::size_t i = 0; i < count; ++i) {
+      // A wall at the end of the front hides nothing: it is where the front ends.
+      double outermost = outward * end - kEndReach_m;
+      for (const Crossing& c : rows[i])
+        if (c.on) outermost = std::max(outermost, c.place);
+      for (const double place : hidden[i])
+        if (place > outermost) rows[i].push_back({place, false});
+    }
+    return across_columns(rows, outward);
   }
 
   const StairModel& model_;
@@ -314,7 +332,7 @@ std::string StepMeasurementOptions::problem() const {
 }
 
 StairCorridor::StairCorridor(const scan::PointCloud& cloud, const StairModel& model, const Interval& side) {
-  constexpr double kMargin_m = 0.3;
+  constexpr double kMargin_m = 0.5;
   const StairAxes axes(model);
   const StairPoint foot = axes(model.nosing);
   const double slope = model.height_m / model.depth_m;
