@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "ipc/messages.hpp"
+#include "scan_assembly/angle_track.hpp"
+#include "scan_assembly/sweep_assembler.hpp"
+#include "tools/stairwayd/measurement_source.hpp"
+
+namespace stairway::daemon {
+
+/// What the threads of the daemon have seen, kept for the health message. Thread-safe.
+class HealthBook {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit HealthBook(Clock::time_point now) : last_report_(now) {}
+
+  void note(const SourceState& state);
+  void note_scan(const drivers::LaserScan& scan);
+  void note_angles(std::size_t samples, const scan::AngleTrack& track);
+  void note_sweep(const scan::Sweep& sweep);
+  /// Something was dropped or went wrong.
+  void count(const std::string& name, std::uint64_t number = 1);
+
+  /// The figures since the last report, and the counts since the start.
+  ipc::HealthMessage report(Clock::time_point now, std::int64_t utime_us);
+
+ private:
+  std::string state_text() const;
+
+  std::mutex mutex_;
+  Clock::time_point last_report_;
+  SourceState source_{false, "starting"};
+  std::uint64_t scans_ = 0;   // since the last report, like
+  std::uint64_t angles_ = 0;  // these
+  std::int64_t sweep_ = 0;
+  std::int64_t points_ = 0;
+  double progress_ = 0.0;
+  bool is_angle_valid_ = false;
+  std::map<std::string, std::int64_t, std::less<>> counts_;
+};
+
+}  // namespace stairway::daemon

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/stairwayd/measurement_publisher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "ipc/message_codec.hpp"
+#include "scan_assembly/scan_placement.hpp"
+
+namespace stairway::daemon {
+namespace {
+
+constexpr std::size_t kMaxWaiting = 40;
+constexpr drivers::HostStamp kDiskInterval_ns = 100'000'000;
+
+drivers::HostStamp last_beam_ns(const drivers::LaserScan& scan) {
+  return scan::beam_stamp_ns(scan, std::max<std::size_t>(1, scan.ranges_m.size()) - 1);
+}
+
+}  // namespace
+
+MeasurementPublisher::MeasurementPublisher(ipc::Channels channels, Publish publish, Utime utime_us)
+    : channels_(std::move(channels)), publish_(std::move(publish)), utime_us_(std::move(utime_us)) {}
+
+void MeasurementPublisher::add(drivers::LaserScan scan, const scan::AngleTrack& track) {
+  waiting_.push_back(std::move(scan));
+  const auto newest_ns = track.newest_ns();
+  while (newest_ns && !waiting_.empty() && last_beam_ns(waiting_.front()) <= *newest_ns) send_oldest(track);
+  if (waiting_.size() > kMaxWaiting) send_oldest(track);
+}
+
+void MeasurementPublisher::add(std::span<const drivers::AngleSample> samples, const scan::AngleTrack& track) {
+  for (const drivers::AngleSample& sample : samples) {
+    if (last_disk_ns_ && sample.stamp_ns - *last_disk_ns_ < kDiskInterval_ns) continue;
+    last_disk_ns_ = sample.stamp_ns;
+    send(sample, track);
+  }
+}
+
+void MeasurementPublisher::send_oldest(const scan::AngleTrack& track) {
+  ipc::ScanMessage message;
+  message.scan = std::move(waiting_.front());
+  waiting_.pop_front();
+  message.utime_us = utime_us_(message.scan.first_beam_stamp_ns);
+  const auto start_rad = track.at(message.scan.first_beam_stamp_ns);
+  const auto end_rad = track.at(last_beam_ns(message.scan));
+  message.disk_angle_valid = start_rad && end_rad;
+  if (message.disk_angle_valid) {
+    message.disk_angle_start_rad = *start_rad;
+    message.disk_angle_end_rad = *end_rad;
+  }
+  publish_(channels_.scan, ipc::encode(message));
+}
+
+void MeasurementPublisher::send(const drivers::AngleSample& sample, const scan::AngleTrack& track) {
+  if (sample.valid) {
+    const double turns = std::abs(sample.angle_rad) / (2.0 * std::numbers::pi);
+    index_count_ = std::max(index_count_, 1 + static_cast<std::int64_t>(turns));
+  }
+  ipc::DiskMessage message;
+  message.utime_us = utime_us_(sample.stamp_ns);
+  message.sample = sample;
+  message.speed_rad_s = track.speed_rad_s().value_or(0.0);
+  message.index_count = index_count_;
+  if (!sample.valid && index_count_ > 0) {
+    message.fault = ipc::DiskFault::Encoder;
+    message.fault_text = "the angle is lost until the next index";
+  }
+  publish_(channels_.disk, ipc::encode(message));
+}
+
+}  // namespace stairway::daemon

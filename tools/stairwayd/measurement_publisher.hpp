@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "drivers/types.hpp"
+#include "ipc/channels.hpp"
+#include "scan_assembly/angle_track.hpp"
+#include "tools/stairwayd/publish.hpp"
+
+namespace stairway::daemon {
+
+/// Sends every scan as soon as the disk angle at its last beam is known, and the disk's angle ten times in a second of
+/// measurement time.
+class MeasurementPublisher {
+ public:
+  using Utime = std::function<std::int64_t(drivers::HostStamp)>;
+
+  MeasurementPublisher(ipc::Channels channels, Publish publish, Utime utime_us);
+
+  /// Of more than 40 scans that wait for their angle, the oldest is sent without.
+  void add(drivers::LaserScan scan, const scan::AngleTrack& track);
+  /// The samples are in `track` already.
+  void add(std::span<const drivers::AngleSample> samples, const scan::AngleTrack& track);
+
+ private:
+  void send_oldest(const scan::AngleTrack& track);
+  void send(const drivers::AngleSample& sample, const scan::AngleTrack& track);
+
+  ipc::Channels channels_;
+  Publish publish_;
+  Utime utime_us_;
+  std::deque<drivers::LaserScan> waiting_;
+  std::optional<drivers::HostStamp> last_disk_ns_;
+  std::int64_t index_count_ = 0;
+};
+
+}  // namespace stairway::daemon

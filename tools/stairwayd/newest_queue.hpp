@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <utility>
+
+namespace stairway::daemon {
+
+/// Hands values from one thread to another; when the taker is too slow, the oldest is dropped.
+template <class T>
+class NewestQueue {
+ public:
+  /// @pre  capacity > 0.
+  explicit NewestQueue(std::size_t capacity) : capacity_(capacity) {}
+
+  /// False when an older value had to go.
+  bool push(T value) {
+    bool is_roomy = true;
+    {
+      const std::lock_guard lock(mutex_);
+      is_roomy = values_.size() < capacity_;
+      if (!is_roomy) values_.pop_front();
+      values_.push_back(std::move(value));
+    }
+    arrived_.notify_one();
+    return is_roomy;
+  }
+
+  /// Waits for a value; empty when asked to stop.
+  std::optional<T> pop(std::stop_token stop) {
+    std::unique_lock lock(mutex_);
+    if (!arrived_.wait(lock, stop, [this] { return !values_.empty(); }) || stop.stop_requested()) return std::nullopt;
+    T value = std::move(values_.front());
+    values_.pop_front();
+    return value;
+  }
+
+ private:
+  const std::size_t capacity_;
+  std::deque<T> values_;
+  std::mutex mutex_;
+  std::condition_variable_any arrived_;
+};
+
+}  // namespace stairway::daemon

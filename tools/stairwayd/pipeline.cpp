@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/stairwayd/pipeline.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <utility>
+
+#include "config/settings_table.hpp"
+#include "ipc/message_codec.hpp"
+#include "tools/common/stage_timer.hpp"
+#include "tools/stairwayd/log.hpp"
+
+namespace stairway::daemon {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kReadTimeout = 100ms;
+constexpr auto kSettingsInterval = 60s;
+constexpr auto kLongestPass = 60s;
+constexpr auto kDetectorGrace = 500ms;
+constexpr std::size_t kWaitingSweeps = 1;
+constexpr double kWholeTurn_rad = 0.99 * 2.0 * std::numbers::pi;
+
+// Leaves a pass whose answer nobody will want; the detector itself cannot be interrupted.
+struct PassAbandoned {};
+
+std::int64_t utime_now_us() {
+  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(since_epoch).count();
+}
+
+}  // namespace
+
+Pipeline::Pipeline(const config::Settings& settings, std::unique_ptr<MeasurementSource> source, Publish publish,
+                   PassListener on_pass)
+    : settings_(settings),
+      source_(std::move(source)),
+      publish_(std::move(publish)),
+      on_pass_(std::move(on_pass)),
+      channels_(settings.lcm.channel_prefix),
+      health_(Clock::now()),
+      publisher_(
+          channels_,
+          [this](const std::string& channel, std::span<const std::uint8_t> bytes) { return send(channel, bytes); },
+          [this](drivers::HostStamp stamp_ns) { return source_->utime_us(stamp_ns); }),
+      assembler_(scan::make_calibration(settings.mount), settings.sweep),
+      sweeps_(kWaitingSweeps),
+      next_settings_(Clock::now()),
+      detection_([this](std::stop_token stop) { detect(stop); }),
+      acquisition_([this](std::stop_token stop) { acquire(stop); }) {}
+
+Pipeline::~Pipeline() { stop(); }
+
+bool Pipeline::stop() {
+  detection_.request_stop();
+  acquisition_.request_stop();
+  if (!acquisition_.joinable()) return !detection_.joinable();
+  acquisition_.join();
+  health_.note(SourceState{false, "stopped"});
+  send(channels_.health, ipc::encode(health_.report(Clock::now(), utime_now_us())));
+  if (!detection_ended_.try_acquire_for(kDetectorGrace)) return false;
+  detection_.join();
+  return true;
+}
+
+void Pipeline::acquire(std::stop_token stop) {
+  while (!stop.stop_requested()) {
+    for (SourceEvent& event : source_->read(kReadTimeout)) {
+      std::visit([this](auto& what) { take(std::move(what)); }, event);
+      while (auto sweep = assembler_.take_sweep()) hand_over(std::move(*sweep));
+    }
+    ++reads_;
+  }
+  source_->stop();
+}
+
+void Pipeline::take(drivers::LaserScan scan) {
+  health_.note_scan(scan);
+  publisher_.add(scan, assembler_.angle_track());
+  assembler_.add(std::move(scan));
+}
+
+void Pipeline::take(const std::vector<drivers::AngleSample>& samples) {
+  assembler_.add(samples);
+  publisher_.add(samples, assembler_.angle_track());
+  health_.note_angles(samples.size(), assembler_.angle_track());
+}
+
+void Pipeline::take(const SourceState& state) {
+  log::info(state.text);
+  health_.note(state);
+}
+
+void Pipeline::take(const SourceTrouble& trouble) {
+  log::repeated_warning(trouble.name, fmt::format("{}: {}", trouble.name, trouble.detail));
+  health_.count(trouble.name);
+}
+
+void Pipeline::hand_over(scan::Sweep sweep) {
+  health_.note_sweep(sweep);
+  const std::int64_t begin_utime_us = source_->utime_us(sweep.begin_ns);
+  const std::int64_t end_utime_us = source_->utime_us(sweep.end_ns);
+  if (sweeps_.push({std::move(sweep), begin_utime_us, end_utime_us})) return;
+  health_.count("unseen-sweeps");
+  log::repeated_warning("unseen sweeps", "the detector is slower than the disk; a sweep was left out");
+}
+
+void Pipeline::detect(std::stop_token stop) {
+  while (auto job = sweeps_.pop(stop)) {
+    pass_began_ = Clock::now().time_since_epoch().count();
+    try {
+      Pass pass = answer(std::move(*job), stop);
+      pass.is_sent = send(channels_.stairways, ipc::encode(pass.message));
+      if (on_pass_) on_pass_(pass);
+    } catch (const PassAbandoned&) {
+      break;
+    }
+    pass_began_ = 0;
+  }
+  detection_ended_.release();
+}
+
+Pass Pipeline::answer(Job job, std::stop_token stop) {
+  detect::DetectorOptions options;
+  {
+    const std::lock_guard lock(settings_mutex_);
+    options = settings_.detector;
+  }
+  tools::StageTimer timer;
+  const auto on_stage = [&](std::string_view stage) {
+    if (stop.stop_requested()) throw PassAbandoned{};
+    timer.begin(stage);
+  };
+  Pass pass;
+  pass.message.detection = detect::detect_stairways(job.sweep.cloud, options, on_stage);
+  timer.stop();
+  pass.message.utime_us = job.end_utime_us;
+  pass.message.sweep_start_utime_us = job.begin_utime_us;
+  pass.message.sweep = static_cast<std::int64_t>(job.sweep.number);
+  pass.message.is_final = job.sweep.statistics.covered_angle_rad >= kWholeTurn_rad;
+  pass.message.track_ids = tracker_.follow(pass.message.detection.stairways);
+  pass.points = job.sweep.cloud.points.size();
+  pass.flaws = job.sweep.statistics.flaws();
+  pass.timings = timer.timings();
+  return pass;
+}
+
+ipc::HealthMessage Pipeline::report() {
+  ipc::HealthMessage health = health_.report(Clock::now(), utime_now_us());
+  send(channels_.health, ipc::encode(health));
+  const Clock::time_point now = Clock::now();
+  if (now >= next_settings_ && send_settings()) next_settings_ = now + kSettingsInterval;
+  return health;
+}
+
+bool Pipeline::has_progressed() {
+  const std::uint64_t reads = reads_;
+  const bool is_reading = std::exchange(reads_seen_, reads) != reads;
+  const Clock::duration began{pass_began_};
+  const bool is_detecting = began == Clock::duration::zero() || Clock::now().time_since_epoch() - began < kLongestPass;
+  return is_reading && is_detecting;
+}
+
+void Pipeline::set_detector_options(const detect::DetectorOptions& options) {
+  const std::lock_guard lock(settings_mutex_);
+  settings_.detector = options;
+  next_settings_ = Clock::now();
+}
+
+bool Pipeline::send(const std::string& channel, std::span<const std::uint8_t> bytes) {
+  const bool is_sent = publish_(channel, bytes);
+  if (!is_sent) health_.count("unsent-messages");
+  return is_sent;
+}
+
+bool Pipeline::send_settings() {
+  const std::lock_guard lock(settings_mutex_);
+  return send(channels_.settings,
+              ipc::encode(ipc::SettingsMessage{utime_now_us(), STAIRWAY_VERSION, config::to_toml(settings_)}));
+}
+
+}  // namespace stairway::daemon

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <semaphore>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "config/settings.hpp"
+#include "ipc/channels.hpp"
+#include "ipc/messages.hpp"
+#include "ipc/stairway_json.hpp"
+#include "scan_assembly/sweep_assembler.hpp"
+#include "tools/stairwayd/health_book.hpp"
+#include "tools/stairwayd/measurement_publisher.hpp"
+#include "tools/stairwayd/measurement_source.hpp"
+#include "tools/stairwayd/newest_queue.hpp"
+#include "tools/stairwayd/publish.hpp"
+#include "tools/stairwayd/stairway_tracker.hpp"
+
+namespace stairway::daemon {
+
+/// The answer for one sweep.
+struct Pass {
+  ipc::StairwaysMessage message;
+  std::size_t points = 0;
+  std::vector<std::string> flaws;  ///< of the sweep, for a person
+  bool is_sent = false;            ///< the message went out
+  ipc::Timings timings;
+};
+
+/// The whole daemon between a source of measurements and the bus, LCM or another: source -> sweeps -> stairways ->
+/// messages.
+///
+/// One thread reads the source, sends STAIRWAY_SCAN and STAIRWAY_DISK and assembles sweeps; another one finds stairways
+/// and sends STAIRWAY_STAIRWAYS for every sweep, also when there are none. At most one sweep waits for the detector; a
+/// newer one replaces it, which is counted. STAIRWAY_HEALTH and STAIRWAY_SETTINGS go out with report(). What cannot be
+/// sent is counted and lost.
+class Pipeline {
+ public:
+  /// Called by the detection thread after the answer has been sent.
+  using PassListener = std::function<void(const Pass&)>;
+
+  /// Starts at once.
+  /// @pre  settings.problem() is empty.
+  Pipeline(const config::Settings& settings, std::unique_ptr<MeasurementSource> source, Publish publish,
+           PassListener on_pass = {});
+  /// Stops, and waits for the detector.
+  ~Pipeline();
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  /// Sends STAIRWAY_HEALTH, and STAIRWAY_SETTINGS once a minute; call it once a second, from one thread.
+  ipc::HealthMessage report();
+
+  /// Whether the threads got on since the last call: the source was read, and the detector did not take more than a
+  /// minute. False means that something hangs; missing devices are no reason.
+  bool has_progressed();
+
+  /// Stops the source (the motor first, then scanning), leaves the pass under way at its next stage, and sends a last
+  /// STAIRWAY_HEALTH. Waits half a second for the detector.
+  /// @return Whether it has ended; a stage cannot be interrupted, and takes seconds for a large cloud.
+  bool stop();
+
+  /// From the next sweep on. Sends the settings again with the next report.
+  /// @pre  options.problem() is empty.
+  void set_detector_options(const detect::DetectorOptions& options);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Job {
+    scan::Sweep sweep;
+    std::int64_t begin_utime_us = 0;
+    std::int64_t end_utime_us = 0;
+  };
+
+  void acquire(std::stop_token stop);
+  void take(drivers::LaserScan scan);
+  void take(const std::vector<drivers::AngleSample>& samples);
+  void take(const SourceState& state);
+  void take(const SourceTrouble& trouble);
+  void hand_over(scan::Sweep sweep);
+  void detect(std::stop_token stop);
+  Pass answer(Job job, std::stop_token stop);
+  bool send(const std::string& channel, std::span<const std::uint8_t> bytes);
+  bool send_settings();
+
+  std::mutex settings_mutex_;
+  config::Settings settings_;
+  const std::unique_ptr<MeasurementSource> source_;
+  const Publish publish_;
+  const PassListener on_pass_;
+  const ipc::Channels channels_;
+  HealthBook health_;
+  MeasurementPublisher publisher_;
+  scan::SweepAssembler assembler_;
+  NewestQueue<Job> sweeps_;
+  StairwayTracker tracker_;
+
+  std::atomic<std::uint64_t> reads_ = 0;
+  std::uint64_t reads_seen_ = 0;
+  std::atomic<Clock::rep> pass_began_ = 0;  // 0 between passes
+  Clock::time_point next_settings_;
+  std::binary_semaphore detection_ended_{0};
+
+  std::jthread detection_;
+  std::jthread acquisition_;
+};
+
+}  // namespace stairway::daemon
