@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/stairwayd/pass_log.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <numbers>
+#include <utility>
+
+#include "tools/stairwayd/log.hpp"
+
+namespace stairway::daemon {
+namespace {
+
+std::string describe(const detect::Stairway& stairway) {
+  return fmt::format(
+      "{} {}, {} steps, height {:.1f} mm, depth {:.1f} mm, width {:.0f} mm, heading {:.1f} deg, anchor ({:.3f}, "
+      "{:.3f}, {:.3f}) m",
+      stairway.direction == detect::StairwayDirection::Ascending ? "ascending" : "descending",
+      stairway.kind == detect::StairwayKind::Straight ? "straight" : "spiral", stairway.nosings.size(),
+      1e3 * stairway.step_height, 1e3 * stairway.step_depth, 1e3 * stairway.width,
+      stairway.heading * 180.0 / std::numbers::pi, stairway.anchor.x(), stairway.anchor.y(), stairway.anchor.z());
+}
+
+std::string describe(const ipc::Timings& timings) {
+  std::string text;
+  for (const auto& [name, duration_ms] : timings)
+    text += fmt::format("{}{} {:.0f}", text.empty() ? "" : ", ", name, duration_ms);
+  return text;
+}
+
+std::string describe(const std::vector<detect::Rejection>& rejected) {
+  return rejected.empty() ? "no candidate" : fmt::format("{}: {}", rejected.front().reason, rejected.front().detail);
+}
+
+}  // namespace
+
+void PassLog::add(const Pass& pass) {
+  const ipc::StairwaysMessage& message = pass.message;
+  const detect::Detection& detection = message.detection;
+  std::set<std::int64_t> seen;
+  for (std::size_t i = 0; i < detection.stairways.size(); ++i) {
+    const std::int64_t id = message.track_ids[i];
+    if (!seen_.contains(id)) log::info(fmt::format("stairway {}: {}", id, describe(detection.stairways[i])));
+    seen.insert(id);
+  }
+  for (const std::int64_t id : seen_) {
+    if (!seen.contains(id)) log::info(fmt::format("stairway {} is no longer seen", id));
+  }
+  const bool is_news = is_first_ || !seen_.empty();
+  if (seen.empty() && is_news)
+    log::info(fmt::format("no stairway in sweep {}; {}", message.sweep, describe(detection.rejected)));
+  log::debug(fmt::format("sweep {}: {} points, {} stairways; {} ms", message.sweep, pass.points, seen.size(),
+                         describe(pass.timings)));
+  if (!pass.flaws.empty()) log::debug(fmt::format("sweep {}: {}", message.sweep, fmt::join(pass.flaws, "; ")));
+  seen_ = std::move(seen);
+  is_first_ = false;
+}
+
+}  // namespace stairway::daemon
