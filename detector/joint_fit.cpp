@@ -77,6 +77,7 @@ constexpr double kHeightFloor_m = 0.001;
 
 constexpr double kGraphSigma_m = 0.010;
 constexpr double kUsualOverhang_m = 0.015;
+constexpr double kMostOverhang_m = 0.06;
 constexpr double kUsualThickness_m = 0.04;
 
 class JointFitter {
@@ -202,7 +203,7 @@ class JointFitter {
     model.nosing.z() = solution.unknowns[kHeight];
     model.depth_m = solution.unknowns[kDepth];
     model.height_m = solution.unknowns[kRise];
-    model.overhang_m = solution.unknowns[kOverhang];
+    model.overhang_m = std::clamp(solution.unknowns[kOverhang], 0.0, kMostOverhang_m);
     model.tread_thickness_m = solution.unknowns[kThickness];
     fit_.sigmas.depth_m = solution.sigmas[kDepth];
     fit_.sigmas.height_m = solution.sigmas[kRise];

@@ -14,6 +14,8 @@ constexpr double kStrip_m = 0.10;       // for coverage
 constexpr double kColumn_m = 0.05;      // for edges
 constexpr double kEdgeReach_m = 0.09;   // an edge is looked for this far from its place
 constexpr double kEndReach_m = 0.4;     // likewise for the ends of the stairway
+constexpr double kBarHeight_m = 0.05;   // the front of an open tread lies within this below its nosing
+constexpr double kMixedShare = 0.25;    // of the spot's radius, what mixed pixels may shift such a front by
 constexpr double kFrontReach_m = 0.07;  // a point is on a front within this distance
 constexpr double kFarthestBehind_m = 30.0;
 
@@ -125,73 +127,105 @@ class StepSurvey {
            options_.min_coverage * static_cast<double>(strips);
   }
 
-  static bool fills(const std::vector<double>& heights, double low, double high) {
+  static bool fills(const std::vector<double>& heights, const Interval& zone) {
     constexpr std::size_t kRows = 4;
     constexpr double kFairShare = 0.3;
     std::array<std::size_t, kRows> rows{};
     for (const double z : heights)
-      ++rows[std::min(kRows - 1, static_cast<std::size_t>((z - low) / (high - low) * static_cast<double>(kRows)))];
+      ++rows[std::min(kRows - 1,
+                      static_cast<std::size_t>((z - zone.low) / zone.length() * static_cast<double>(kRows)))];
     const double fair = kFairShare * static_cast<double>(heights.size()) / static_cast<double>(kRows);
     return std::all_of(rows.begin(), rows.end(), [&](std::size_t n) { return static_cast<double>(n) >= fair; });
   }
 
-  void measure_front() {
-    const double margin = std::min(spot_radius(), 0.25 * (top_z_ - visible_bottom()));
-    const double low = visible_bottom() + margin;
-    const double high = top_z_ - margin;
-    std::vector<double> near;
-    std::size_t behind = 0;
-    for (const StairPoint& p : points_) {
-      if (p.z < low - 0.05 || p.z > high + 0.05 || p.v < side_.low || p.v > side_.high) continue;
-      const double z = at_front(p).z;
-      if (z < low || z > high) continue;
-      if (std::abs(p.u - front_u_) < options_.search_m) near.push_back(p.u);
-      if (p.u > front_u_ + options_.search_m && p.u < front_u_ + model_.depth_m - options_.search_m) ++behind;
-    }
-    if (near.size() < static_cast<std::size_t>(options_.min_points)) return;
-    std::sort(near.begin(), near.end());
-    const double center = densest(near, reach_);
-
-    // Straight line u = value + turn (v - middle) through the points near the front, twice, to follow its slope.
-    double value = center;
+  /// Points of a front and the straight line u = value + turn (v - middle) through them.
+  struct Front {
+    double value = 0.0;
     double turn = 0.0;
-    double count = 0.0;
     double variance_v = 0.0;
     std::vector<double> sides;
     std::vector<double> heights;
-    for (int pass = 0; pass < 2; ++pass) {
-      double sum_u = 0.0, sum_v = 0.0, sum_uv = 0.0, sum_vv = 0.0;
-      count = 0.0;
-      sides.clear();
-      heights.clear();
-      for (const StairPoint& p : points_) {
-        const double v = p.v - side_.middle();
-        const double u = p.u - center;
-        if (std::abs(u - (value - center) - turn * v) > reach_ || p.v < side_.low || p.v > side_.high) continue;
-        const double z = at_front(p).z;
-        if (z < low || z > high) continue;
-        ++count;
-        sum_u += u;
-        sum_v += v;
-        sum_uv += u * v;
-        sum_vv += v * v;
-        sides.push_back(p.v);
-        heights.push_back(z);
-      }
-      if (count < options_.min_points) return;
-      variance_v = sum_vv / count - square(sum_v / count);
-      turn = variance_v > 0.0 ? (sum_uv / count - sum_u * sum_v / square(count)) / variance_v : 0.0;
-      value = center + sum_u / count - turn * sum_v / count;
+    double count() const { return static_cast<double>(heights.size()); }
+  };
+
+  bool in_zone(const StairPoint& p, const Interval& zone) const {
+    if (p.v < side_.low || p.v > side_.high) return false;
+    const double z = at_front(p).z;
+    return z >= zone.low && z <= zone.high;
+  }
+
+  std::optional<Front> front_within(const Interval& zone) const {
+    std::vector<StairPoint> near;
+    std::size_t behind = 0;
+    for (const StairPoint& p : points_) {
+      const double depth = p.u - front_u_;
+      if (depth < -2.0 * options_.search_m || depth > model_.depth_m || !in_zone(p, zone)) continue;
+      if (std::abs(depth) < 2.0 * options_.search_m) near.push_back({p.u, p.v, at_front(p).z});
+      if (depth > options_.search_m && depth < model_.depth_m - options_.search_m) ++behind;
     }
-    const double on_density = count / (2.0 * reach_);
-    const double behind_density =
-        static_cast<double>(behind) / std::max(model_.depth_m - 2.0 * options_.search_m, 0.01);
-    if (on_density < options_.min_contrast * behind_density || !covers(sides)) return;
-    double sigma = options_.range_sigma_m / std::sqrt(count);
-    // The front of an open tread is a bar in which the spot finds hardly a clean place.
-    if (!fills(heights, low, high)) sigma = std::hypot(sigma, 0.5 * spot_radius());
-    result_.front = Estimate{value, sigma};
-    if (variance_v > 0.0) result_.turn = Estimate{turn, sigma / std::sqrt(variance_v)};
+    std::vector<double> places;
+    for (const StairPoint& p : near)
+      if (std::abs(p.u - front_u_) < options_.search_m) places.push_back(p.u);
+    if (places.size() < static_cast<std::size_t>(options_.min_points)) return std::nullopt;
+    std::sort(places.begin(), places.end());
+
+    Front front;
+    front.value = densest(places, reach_);
+    constexpr int kPasses = 2;  // the second follows the slope that the first has found
+    for (int pass = 0; pass < kPasses; ++pass) follow(near, front);
+    if (front.heights.size() < static_cast<std::size_t>(options_.min_points)) return std::nullopt;
+    const double free_depth = std::max(model_.depth_m - 2.0 * options_.search_m, 0.01);
+    const double contrast = front.count() / (2.0 * reach_) / std::max(static_cast<double>(behind) / free_depth, 1e-9);
+    if (contrast < options_.min_contrast || !covers(front.sides)) return std::nullopt;
+    return front;
+  }
+
+  // Fits the line to the points within reach of it.
+  void follow(const std::vector<StairPoint>& points, Front& front) const {
+    double sum_u = 0.0;
+    double sum_v = 0.0;
+    double sum_uv = 0.0;
+    double sum_vv = 0.0;
+    front.sides.clear();
+    front.heights.clear();
+    for (const StairPoint& p : points) {
+      const double v = p.v - side_.middle();
+      const double u = p.u - front.value;
+      if (std::abs(u - front.turn * v) > reach_) continue;
+      sum_u += u;
+      sum_v += v;
+      sum_uv += u * v;
+      sum_vv += v * v;
+      front.sides.push_back(p.v);
+      front.heights.push_back(p.z);
+    }
+    const double n = front.count();
+    if (n < 2.0) return;
+    front.variance_v = sum_vv / n - square(sum_v / n);
+    front.turn = front.variance_v > 0.0 ? (sum_uv / n - sum_u * sum_v / square(n)) / front.variance_v : 0.0;
+    front.value += sum_u / n - front.turn * sum_v / n;
+  }
+
+  // A riser is seen clean where the whole spot lies on it. Where none is filled with points, the front of an open tread
+  // may be: a bar in which the spot hardly finds a clean place.
+  void measure_front() {
+    const double bottom = visible_bottom();
+    const double margin = std::min(spot_radius(), 0.25 * (top_z_ - bottom));
+    const Interval riser{bottom + margin, top_z_ - margin};
+    std::optional<Front> front = front_within(riser);
+    double sigma = options_.range_sigma_m;
+    double systematic = 0.0;
+    if (!front || !fills(front->heights, riser)) {
+      const std::optional<Front> bar = front_within({top_z_ - kBarHeight_m, top_z_ + 0.5 * spot_radius()});
+      if (bar) {
+        front = bar;
+        systematic = kMixedShare * spot_radius();
+      }
+    }
+    if (!front) return;
+    sigma = std::hypot(sigma / std::sqrt(front->count()), systematic);
+    result_.front = Estimate{front->value, sigma};
+    if (front->variance_v > 0.0) result_.turn = Estimate{front->turn, sigma / std::sqrt(front->variance_v)};
   }
 
   void measure_level(double low, double high, std::optional<Estimate>& level) const {
@@ -263,6 +297,11 @@ class StepSurvey {
 
   // The line of sight leaves the front where half the spot does: there the range is half way to what lies behind.
   void measure_nosing() {
+    result_.nosing_u = front_u_;
+    if (!sensor_) {
+      result_.nosing = top_of_front();
+      return;
+    }
     const auto count = static_cast<std::size_t>(std::max(1.0, side_.length() / kColumn_m));
     std::vector<std::vector<Crossing>> columns(count);
     for (const StairPoint& p : points_) {
@@ -274,7 +313,23 @@ class StepSurvey {
       columns[static_cast<std::size_t>(column)].push_back({q.z, p.u < front_u_ + 0.5 * model_.depth_m});
     }
     result_.nosing = across_columns(columns, 1.0);
-    result_.nosing_u = front_u_;
+  }
+
+  // Without a line of sight the highest points of the front have to do.
+  std::optional<Estimate> top_of_front() const {
+    const auto count = static_cast<std::size_t>(std::max(1.0, side_.length() / kColumn_m));
+    std::vector<double> tops(count, -1e9);
+    for (const StairPoint& p : points_) {
+      const double column = (p.v - side_.low) / side_.length() * static_cast<double>(count);
+      if (column < 0.0 || column >= static_cast<double>(count) || std::abs(p.u - result_.front->value) > reach_ ||
+          std::abs(p.z - top_z_) > options_.search_m)
+        continue;
+      double& top = tops[static_cast<std::size_t>(column)];
+      top = std::max(top, p.z);
+    }
+    std::erase_if(tops, [](double top) { return top < -1e8; });
+    if (tops.size() < 3) return std::nullopt;
+    return robust_mean(tops, 3e-3);
   }
 
   // Like the nosing, but what stands in the way of the front (a post, a bystander) says nothing about its end.
