@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/stairwayd/pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <map>
+#include <numbers>
+#include <thread>
+
+#include "ipc/message_codec.hpp"
+
+namespace stairway::daemon {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::int64_t kScanPeriod_ns = 25'000'000;
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+
+// A disk that turns once in 40 scans, with scans of 100 beams that see a wall around the scanner.
+std::vector<SourceEvent> turning_events(int scans) {
+  std::vector<SourceEvent> events{SourceState{true, "playing"}};
+  for (int i = 0; i <= scans; ++i) {
+    const std::int64_t stamp_ns = i * kScanPeriod_ns;
+    events.emplace_back(std::vector{drivers::AngleSample{stamp_ns, kTurn_rad * i / 40.0, true}});
+    if (i == scans) break;
+    drivers::LaserScan scan;
+    scan.sequence = static_cast<std::uint64_t>(i);
+    scan.first_beam_stamp_ns = stamp_ns;
+    scan.beam_interval_ns = 240'000.0;
+    scan.first_angle_rad = -0.5;
+    scan.angle_increment_rad = 0.01;
+    scan.ranges_m.assign(100, 3.0F);
+    scan.statuses.assign(100, drivers::BeamStatus::Ok);
+    events.emplace_back(std::move(scan));
+  }
+  return events;
+}
+
+/// Plays events, then stays silent.
+class ScriptedSource final : public MeasurementSource {
+ public:
+  ScriptedSource(std::vector<SourceEvent> events, std::atomic<bool>& is_stopped)
+      : events_(std::move(events)), is_stopped_(is_stopped) {}
+
+  std::vector<SourceEvent> read(std::chrono::milliseconds timeout) override {
+    if (events_.empty()) std::this_thread::sleep_for(std::min(timeout, 5ms));
+    return std::exchange(events_, {});
+  }
+  void stop() override { is_stopped_ = true; }
+  std::int64_t utime_us(drivers::HostStamp stamp_ns) const override { return 1'000'000 + stamp_ns / 1000; }
+
+ private:
+  std::vector<SourceEvent> events_;
+  std::atomic<bool>& is_stopped_;
+};
+
+/// Keeps what was sent.
+class Outbox {
+ public:
+  Publish publish() {
+    return [this](const std::string& channel, std::span<const std::uint8_t> bytes) {
+      const std::lock_guard lock(mutex_);
+      sent_[channel].emplace_back(bytes.begin(), bytes.end());
+      return true;
+    };
+  }
+
+  template <class Message>
+  std::vector<Message> sent(const std::string& channel) {
+    const std::lock_guard lock(mutex_);
+    std::vector<Message> messages;
+    for (const ipc::Bytes& bytes : sent_[channel]) messages.push_back(ipc::decode<Message>(bytes).value());
+    return messages;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::vector<ipc::Bytes>> sent_;
+};
+
+template <class Condition>
+bool comes_true(Condition condition) {
+  const auto end = std::chrono::steady_clock::now() + 20s;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(2ms);
+  }
+  return true;
+}
+
+const ipc::Channels kChannels;
+
+class PipelineTest : public testing::Test {
+ protected:
+  std::unique_ptr<Pipeline> start(std::vector<SourceEvent> events, Pipeline::PassListener on_pass = {}) {
+    return std::make_unique<Pipeline>(config::Settings{},
+                                      std::make_unique<ScriptedSource>(std::move(events), is_stopped), outbox.publish(),
+                                      std::move(on_pass));
+  }
+  std::size_t answers() { return outbox.sent<ipc::StairwaysMessage>(kChannels.stairways).size(); }
+
+  std::atomic<bool> is_stopped = false;
+  Outbox outbox;
+};
+
+TEST_F(PipelineTest, every_sweep_has_an_answer_even_without_stairways) {
+  const auto pipeline = start(turning_events(45));
+  ASSERT_TRUE(comes_true([&] { return answers() == 1; }));
+  const auto answer = outbox.sent<ipc::StairwaysMessage>(kChannels.stairways).front();
+  EXPECT_TRUE(answer.detection.stairways.empty());
+  EXPECT_EQ(answer.sweep, 0);
+  EXPECT_TRUE(answer.is_final);
+  EXPECT_EQ(answer.sweep_start_utime_us, 1'000'000);
+  EXPECT_NEAR(static_cast<double>(answer.utime_us), 2'000'000.0, 1000.0);
+}
+
+TEST_F(PipelineTest, scans_bear_the_disk_angles_of_their_ends) {
+  const auto pipeline = start(turning_events(10));
+  const auto scans = [&] { return outbox.sent<ipc::ScanMessage>(kChannels.scan); };
+  // The last one waits for the next angle to arrive together with the next scan.
+  ASSERT_TRUE(comes_true([&] { return scans().size() == 9; }));
+  const ipc::ScanMessage scan = scans()[4];
+  EXPECT_EQ(scan.scan.sequence, 4u);
+  EXPECT_EQ(scan.utime_us, 1'000'000 + 4 * 25'000);
+  EXPECT_TRUE(scan.disk_angle_valid);
+  EXPECT_NEAR(scan.disk_angle_start_rad, kTurn_rad * 4 / 40, 1e-9);
+  EXPECT_NEAR(scan.disk_angle_end_rad, kTurn_rad * (4 + 99 * 0.24 / 25) / 40, 1e-9);
+}
+
+TEST_F(PipelineTest, disk_is_told_ten_times_a_second_of_measurement_time) {
+  const auto pipeline = start(turning_events(80));
+  ASSERT_TRUE(comes_true([&] { return answers() >= 1; }));
+  const auto disks = outbox.sent<ipc::DiskMessage>(kChannels.disk);
+  ASSERT_EQ(disks.size(), 21u);
+  EXPECT_EQ(disks[1].utime_us - disks[0].utime_us, 100'000);
+  EXPECT_EQ(disks.front().index_count, 1);
+  EXPECT_EQ(disks.back().index_count, 3);
+}
+
+TEST_F(PipelineTest, slow_detector_gets_the_newest_sweep_and_the_others_are_counted) {
+  std::atomic<std::int64_t> passes = 0, last_sweep = -1;
+  std::atomic<bool> is_slow = true;
+  const auto pipeline = start(turning_events(40 * 6 + 5), [&](const Pass& pass) {
+    ++passes;
+    last_sweep = pass.message.sweep;
+    while (is_slow) std::this_thread::sleep_for(1ms);
+  });
+  EXPECT_TRUE(comes_true([&] { return pipeline->report().sweep == 6; }));
+  is_slow = false;
+  EXPECT_TRUE(comes_true([&] { return last_sweep == 5; }));
+  const auto listed = pipeline->report().drops;
+  const std::map<std::string, std::int64_t> drops(listed.begin(), listed.end());
+  EXPECT_LE(passes, 3);
+  ASSERT_TRUE(drops.contains("unseen-sweeps"));
+  EXPECT_EQ(drops.at("unseen-sweeps"), 6 - passes);
+}
+
+TEST_F(PipelineTest, stop_ends_the_source_and_tells_it) {
+  const auto pipeline = start(turning_events(10));
+  EXPECT_FALSE(is_stopped);
+  EXPECT_TRUE(pipeline->stop());
+  EXPECT_TRUE(is_stopped);
+  EXPECT_EQ(outbox.sent<ipc::HealthMessage>(kChannels.health).back().state, "stopped");
+}
+
+TEST_F(PipelineTest, settings_go_out_with_the_first_report_and_after_a_change) {
+  const auto pipeline = start({});
+  for (int i = 0; i < 3; ++i) pipeline->report();
+  EXPECT_EQ(outbox.sent<ipc::SettingsMessage>(kChannels.settings).size(), 1u);
+  detect::DetectorOptions options;
+  options.voxel_m = 0.025;
+  pipeline->set_detector_options(options);
+  pipeline->report();
+  const auto settings = outbox.sent<ipc::SettingsMessage>(kChannels.settings);
+  ASSERT_EQ(settings.size(), 2u);
+  EXPECT_NE(settings.back().toml.find("voxel_mm = 25"), std::string::npos);
+}
+
+TEST_F(PipelineTest, troubles_are_counted_by_name_and_what_cannot_be_sent_too) {
+  std::vector<SourceEvent> events{SourceTrouble{"scanner: corrupt message", "sum"},
+                                  SourceTrouble{"scanner: corrupt message", "sum"}};
+  const auto refuse = [](const std::string&, std::span<const std::uint8_t>) { return false; };
+  Pipeline pipeline(config::Settings{}, std::make_unique<ScriptedSource>(std::move(events), is_stopped), refuse);
+  std::map<std::string, std::int64_t> drops;
+  EXPECT_TRUE(comes_true([&] {
+    const auto listed = pipeline.report().drops;
+    drops = {listed.begin(), listed.end()};
+    return drops["scanner: corrupt message"] == 2;
+  }));
+  EXPECT_GT(drops["unsent-messages"], 0);
+}
+
+}  // namespace
+}  // namespace stairway::daemon
