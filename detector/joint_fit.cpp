@@ -131,6 +131,10 @@ class JointFitter {
     fit_.first = steps_.front().number;
     fit_.last = steps_.back().number;
     fit_.seen_steps = static_cast<int>(steps_.size());
+    fit_.measurements = 0;
+    for (const StepMeasurement& step : steps_)
+      fit_.measurements += static_cast<int>(step.front.has_value()) + static_cast<int>(step.surface.has_value()) +
+                           static_cast<int>(step.underside.has_value());
     return true;
   }
 

@@ -31,6 +31,7 @@ struct JointFit {
   int first = 0;              ///< number of the lowest step of which points were found
   int last = 0;               ///< and of the highest
   int seen_steps = 0;         ///< how many of them have points
+  int measurements = 0;       ///< fronts, treads and undersides measured on them
 };
 
 /// Fits one model to the points of a stairway: fronts fix d and s, treads and the edges of sight fix h.

@@ -74,16 +74,21 @@ FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& pa
           .first = graph.parts.front().step,
           .last = graph.parts.back().step,
           .view = winner.view,
-          .score = winner.score};
+          .score = winner.score,
+          .evidence = static_cast<int>(graph.parts.size())};
 }
 
 std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stairways) {
+  std::stable_sort(stairways.begin(), stairways.end(),
+                   [](const FittedStairway& a, const FittedStairway& b) { return a.evidence > b.evidence; });
   std::vector<FittedStairway> kept;
   for (FittedStairway& candidate : stairways) {
     const bool known = std::any_of(kept.begin(), kept.end(),
                                    [&](const FittedStairway& other) { return lies_within(candidate, other); });
     if (!known) kept.push_back(std::move(candidate));
   }
+  std::stable_sort(kept.begin(), kept.end(),
+                   [](const FittedStairway& a, const FittedStairway& b) { return a.score > b.score; });
   return kept;
 }
 

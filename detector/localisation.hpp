@@ -26,13 +26,14 @@ struct FittedStairway {
   int last = 0;   ///< and of the highest
   View view = View::FromBelow;
   double score = 0.0;  ///< eq 2
+  int evidence = 0;    ///< parts, or measurements of steps, that bear it out
 };
 
 /// What the parts of a graph say about the stairway's ends.
 FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& parts);
 
-/// Drops every stairway of which more than half the steps lie within one with a higher score: it is the same one, found
-/// from other parts. The order is kept.
+/// Drops every stairway of which more than half the steps lie within one with more evidence: it is the same one, found
+/// from other parts. The result is ordered by score.
 std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stairways);
 
 /// Turns a fit into the stairway a robot can climb: first step on the ground, ends, anchor and every nosing.

@@ -32,7 +32,8 @@ FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
           .first = fit.first,
           .last = fit.last,
           .view = winner.view,
-          .score = winner.score};
+          .score = winner.score,
+          .evidence = fit.measurements};
 }
 
 // Fits every winner to the points; those that the points do not bear out are named in the answer.

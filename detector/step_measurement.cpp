@@ -87,8 +87,10 @@ class StepSurvey {
     if (!sensor_ || sensor_->z < top_z_) measure_level(top_z_ - 0.12, top_z_ - 0.015, result_.underside);
     if (result_.front) {
       measure_nosing();
-      result_.right_end = measure_end(side_.low);
-      result_.left_end = measure_end(side_.high);
+      if (sensor_) {
+        result_.right_end = measure_end(side_.low);
+        result_.left_end = measure_end(side_.high);
+      }
     }
     return result_;
   }
