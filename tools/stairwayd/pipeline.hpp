@@ -70,7 +70,7 @@ class Pipeline {
   /// @return Whether it has ended; a stage cannot be interrupted, and takes seconds for a large cloud.
   bool stop();
 
-  /// From the next sweep on. Sends the settings again with the next report.
+  /// From the next sweep on; call it from the thread of report(). Sends the settings again with the next report.
   /// @pre  options.problem() is empty.
   void set_detector_options(const detect::DetectorOptions& options);
 

@@ -12,6 +12,7 @@ Signals::Signals() {
   sigemptyset(&set_);
   for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1}) sigaddset(&set_, signal);
   pthread_sigmask(SIG_BLOCK, &set_, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 Wakeup Signals::wait_until(std::chrono::steady_clock::time_point deadline) const {

@@ -15,7 +15,7 @@ enum class Wakeup {
 };
 
 /// The signals of the process, taken by the one thread that waits for them. Make it before any other thread, so that
-/// all of them leave the signals alone.
+/// all of them leave the signals alone. A peer that closes its connection (SIGPIPE) is from then on a failed write.
 class Signals {
  public:
   Signals();
