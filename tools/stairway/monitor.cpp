@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "ipc/lcm_bus.hpp"
+#include "tools/stairway/arguments.hpp"
+#include "tools/stairway/daemon_news.hpp"
+#include "tools/stairway/source.hpp"
+#include "tools/stairway/verbs.hpp"
+
+namespace stairway::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto kRetry = 1s;
+constexpr auto kWait = 200ms;
+
+struct Arguments {
+  SettingsArguments settings;
+  Format format = Format::Text;
+  bool first = false;
+  std::optional<double> timeout_s;
+  std::string truth;
+};
+
+volatile std::sig_atomic_t is_interrupted = 0;
+
+void on_interrupt(int) { is_interrupted = 1; }
+
+// The second Ctrl-C ends the program the hard way, should the first one not be seen.
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+tl::expected<std::unique_ptr<ipc::LcmBus>, ipc::BusError> listen(const ipc::BusOptions& options, DaemonNews& news) {
+  auto bus = ipc::LcmBus::open(options.url);
+  if (!bus) return bus;
+  const ipc::Channels channels(options.channel_prefix);
+  for (const std::string& channel : {channels.stairways, channels.health}) {
+    const auto subscribed = (*bus)->subscribe(channel, [&](const ipc::BusMessage& message) { news.take(message); });
+    if (!subscribed) return tl::unexpected(subscribed.error());
+  }
+  return bus;
+}
+
+/// Listens until there is a reason to stop. A network that is not there yet is waited for.
+class Listener {
+ public:
+  Listener(const Arguments& arguments, const ipc::BusOptions& options, DaemonNews& news)
+      : arguments_(arguments), options_(options), news_(news), start_(Clock::now()) {}
+
+  void run() {
+    while (!is_over()) {
+      auto bus = listen(options_, news_);
+      if (bus) {
+        told_.clear();
+        if (!receive(**bus)) return;
+      } else {
+        tell(bus.error().text + "; trying again every second");
+        pause();
+      }
+    }
+  }
+
+ private:
+  bool is_over() const {
+    if (is_interrupted || (arguments_.first && news_.has_stairway())) return true;
+    return arguments_.timeout_s &&
+           std::chrono::duration<double>(Clock::now() - start_).count() >= *arguments_.timeout_s;
+  }
+
+  /// Answers whether to open the bus again.
+  bool receive(ipc::Bus& bus) {
+    while (!is_over()) {
+      const auto handled = bus.handle(kWait);
+      if (handled) continue;
+      if (handled.error().fault == ipc::BusFault::Ended) return false;
+      tell(handled.error().text);
+      pause();
+      return true;
+    }
+    return false;
+  }
+
+  void tell(const std::string& text) {
+    if (text != told_) report_error(text);
+    told_ = text;
+  }
+
+  void pause() const {
+    const auto end = Clock::now() + kRetry;
+    while (Clock::now() < end && !is_over()) std::this_thread::sleep_for(50ms);
+  }
+
+  const Arguments& arguments_;
+  const ipc::BusOptions& options_;
+  DaemonNews& news_;
+  Clock::time_point start_;
+  std::string told_;
+};
+
+int run(const Arguments& arguments) {
+  const auto loaded = load_settings(arguments.settings);
+  if (!loaded) {
+    report_error(loaded.error().text);
+    return kExitUsage;
+  }
+  std::optional<std::vector<detect::Stairway>> truth;
+  if (!arguments.truth.empty()) {
+    auto scene = open_scene(arguments.truth);
+    if (!scene) {
+      report_error(scene.error().text);
+      return kExitFailed;
+    }
+    truth = std::move(scene->truths);
+  }
+  catch_interrupts();
+  const ipc::BusOptions& bus = loaded->settings.lcm;
+  DaemonNews news(ipc::Channels(bus.channel_prefix), arguments.format, std::move(truth));
+  Listener(arguments, bus, news).run();
+  news.report_damage();
+  if (is_interrupted) return kExitDone;
+  if (arguments.first ? news.has_stairway() : news.has_answer()) return kExitDone;
+  report_error(fmt::format("{} from {}; is stairwayd running, with the same lcm.url and lcm.channel_prefix?",
+                           news.has_answer() ? "no stairway" : "nothing", bus.url));
+  return kExitFailed;
+}
+
+}  // namespace
+
+Action declare_monitor(CLI::App& command) {
+  const auto arguments = std::make_shared<Arguments>();
+  command.add_flag("--first", arguments->first, "end after the first message with at least one stairway");
+  command
+      .add_option("--timeout", arguments->timeout_s,
+                  "end after this time [s], with exit code 1 if no answer came, with --first: none with a stairway")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--truth", arguments->truth, "print what is true in a simulated scene, and the differences")
+      ->type_name("sim:SCENE");
+  add_settings_options(command, arguments->settings);
+  add_format_option(command, arguments->format);
+  command.footer(
+      "Stairways go to stdout, the daemon's state to stderr: on a terminal one line that is kept up to date, else a\n"
+      "line for every change.\n"
+      "Examples:\n"
+      "  stairway monitor\n"
+      "  stairway monitor --first --timeout 120 --truth sim:straight-flight\n"
+      "  stairway monitor --format json --config /etc/stairwayd/stairwayd.toml | jq .stairways\n"
+      "Exit codes: 0 done, also by Ctrl-C; 1 nothing came; 2 wrong usage or settings.");
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace stairway::tools

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/stairway/verbs.hpp"
+
+namespace stairway::tools {
+
+std::span<const Verb> verbs() {
+  static constexpr Verb kVerbs[] = {
+      {"detect", "find the stairways in clouds and simulated scenes", declare_detect},
+      {"monitor", "show what stairwayd reports, live", declare_monitor},
+      {"simulate", "write the cloud that the robot would assemble in a scene", declare_simulate},
+      {"info", "describe clouds", declare_info},
+      {"config", "show, check or compare settings", declare_config},
+  };
+  return kVerbs;
+}
+
+}  // namespace stairway::tools
