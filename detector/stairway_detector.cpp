@@ -24,6 +24,20 @@ std::vector<StairPart> find_parts(const scan::PointCloud& cloud, const std::vect
   return parts;
 }
 
+// Why not even a candidate came about.
+Rejection nothing_to_start_from(std::size_t points, std::size_t regions, const std::vector<StairPart>& parts) {
+  if (points == 0) return {.reason = "empty-cloud", .detail = "the cloud has no finite point", .figures = {}};
+  double risers = 0.0;
+  double treads = 0.0;
+  for (const StairPart& part : parts) (part.kind == StairPart::Kind::Tread ? treads : risers) += 1.0;
+  return {.reason = "no-step-pair",
+          .detail = "no two risers or treads lie to each other as those of neighbouring steps do",
+          .figures = {{"points", static_cast<double>(points)},
+                      {"planes", static_cast<double>(regions)},
+                      {"risers", risers},
+                      {"treads", treads}}};
+}
+
 FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
   return {.model = fit.model,
           .side = fit.side,
@@ -89,6 +103,8 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
   begin_stage("fit");
   Detection detection;
   if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
+  if (competition.winners.empty() && !competition.runner_up)
+    detection.rejected.push_back(nothing_to_start_from(thinned.points.size(), regions.size(), parts));
   std::vector<FittedStairway> fitted;
   if (options.competition.strategy == Strategy::Joint) {
     fitted = refine(cloud, competition.winners, parts, options, detection);

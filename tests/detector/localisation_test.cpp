@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detector/localisation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/detector/part_fixtures.hpp"
+
+namespace stairway::detect {
+namespace {
+
+FittedStairway fitted(int first, int last) {
+  return {.model = test::make_model(0.17, 0.29), .side = {-0.6, 0.6}, .first = first, .last = last};
+}
+
+TEST(Localisation, places_the_anchor_at_the_top_front_of_the_first_step) {
+  const Stairway stairway = localise(fitted(0, 9));
+  EXPECT_EQ(stairway.nosings.size(), 10U);
+  EXPECT_LT((stairway.anchor - Eigen::Vector3d(2.0, 0.0, 0.17)).norm(), 1e-9);
+  EXPECT_EQ(stairway.anchor_side, AnchorSide::Middle);
+  EXPECT_NEAR(stairway.heading, 0.0, 1e-12);
+  EXPECT_NEAR(stairway.nosings[0].left.y(), 0.6, 1e-12);
+  EXPECT_NEAR(stairway.nosings[0].right.y(), -0.6, 1e-12);
+  EXPECT_NEAR(stairway.pitch(), std::atan2(0.17, 0.29), 1e-12);
+}
+
+TEST(Localisation, continues_a_stairway_down_to_the_ground) {
+  const Stairway stairway = localise(fitted(3, 9));
+  EXPECT_EQ(stairway.nosings.size(), 10U);
+  EXPECT_NEAR(stairway.nosings.front().left.z(), 0.17, 1e-9);
+}
+
+TEST(Localisation, does_not_invent_a_whole_storey) {
+  const Stairway stairway = localise(fitted(15, 20));
+  EXPECT_EQ(stairway.nosings.size(), 6U);
+  EXPECT_NEAR(stairway.anchor.z(), 16 * 0.17, 1e-9);
+}
+
+TEST(Localisation, drops_steps_below_the_ground) { EXPECT_EQ(localise(fitted(-2, 9)).nosings.size(), 10U); }
+
+TEST(Localisation, keeps_one_of_two_descriptions_of_the_same_stairway) {
+  FittedStairway good = fitted(0, 9);
+  good.evidence = 20;
+  good.score = 5.0;
+  FittedStairway poor = fitted(0, 4);
+  poor.model.nosing += Eigen::Vector3d(0.05, 0.1, 0.05);
+  poor.evidence = 8;
+  poor.score = 9.0;
+  FittedStairway elsewhere = fitted(0, 4);
+  elsewhere.model.nosing += Eigen::Vector3d(0, 3, 0);
+  elsewhere.side = {2.4, 3.6};
+  elsewhere.evidence = 3;
+  elsewhere.score = 7.0;
+  const std::vector<FittedStairway> kept = without_duplicates({poor, good, elsewhere});
+  ASSERT_EQ(kept.size(), 2U);
+  EXPECT_EQ(kept[0].score, 7.0) << "ordered by score";
+  EXPECT_EQ(kept[1].evidence, 20) << "the better supported of the two";
+}
+
+TEST(Localisation, reads_the_ends_off_the_outer_parts) {
+  const StairModel model = test::make_model(0.17, 0.29);
+  std::vector<StairPart> parts;
+  for (int number = 0; number < 8; ++number) parts.push_back(test::riser_of(model, number, number < 4 ? 1.2 : 0.7));
+  Winner winner;
+  winner.graph.model = model;
+  for (std::size_t i = 0; i < parts.size(); ++i) winner.graph.parts.push_back({static_cast<int>(i), i});
+  const FittedStairway stairway = from_parts(winner, parts);
+  EXPECT_NEAR(stairway.side.length(), 1.2, 1e-9);
+  EXPECT_EQ(stairway.last, 7);
+}
+
+}  // namespace
+}  // namespace stairway::detect
