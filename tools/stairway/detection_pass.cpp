@@ -41,7 +41,9 @@ detect::Rejection floor_not_found(const detect::FloorOptions& options) {
 
 std::optional<detect::Rejection> turn_into_base(scan::PointCloud& cloud, const config::Settings& settings) {
   const config::InputOptions& input = settings.input;
+  if (input.sensor) cloud.sensor_origin = input.sensor->cast<float>();
   if (!cloud.sensor_origin) cloud.sensor_origin = presumed_sensor_origin(settings);
+  if (input.merged) cloud.sensor_origin.reset();
   if (is_tilted(input)) {
     cloud =
         detect::transformed(cloud, input.gravity ? detect::upright_from_gravity(*input.gravity)

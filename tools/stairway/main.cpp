@@ -26,7 +26,8 @@ int with_output_written(int exit_code) {
 std::string failure_text(const CLI::App* app, const CLI::Error& error) {
   const bool has_verb = !app->get_subcommands().empty();
   const std::vector<std::string> unknown = app->remaining();
-  const std::string what = has_verb || unknown.empty() ? error.what() : "there is no verb '" + unknown.front() + "'";
+  std::string what = error.what();
+  if (!has_verb) what = unknown.empty() ? "a verb is required" : "there is no verb '" + unknown.front() + "'";
   const std::string verb = has_verb ? " " + app->get_subcommands().front()->get_name() : "";
   return "stairway: " + what + "\nstairway" + verb + " --help tells more\n";
 }

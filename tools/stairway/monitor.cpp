@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -24,7 +25,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto kRetry = 1s;
+constexpr auto kFirstPause = 500ms;  // between attempts to open the bus, doubled each time
+constexpr auto kLongestPause = 8000ms;
 constexpr auto kWait = 200ms;
 
 struct Arguments {
@@ -70,9 +72,10 @@ class Listener {
       auto bus = listen(options_, news_);
       if (bus) {
         told_.clear();
+        pause_ = kFirstPause;
         if (!receive(**bus)) return;
       } else {
-        tell(bus.error().text + "; trying again every second");
+        tell(bus.error().text + "; trying again");
         pause();
       }
     }
@@ -103,8 +106,9 @@ class Listener {
     told_ = text;
   }
 
-  void pause() const {
-    const auto end = Clock::now() + kRetry;
+  void pause() {
+    const auto end = Clock::now() + pause_;
+    pause_ = std::min(2 * pause_, kLongestPause);
     while (Clock::now() < end && !is_over()) std::this_thread::sleep_for(50ms);
   }
 
@@ -113,6 +117,7 @@ class Listener {
   DaemonNews& news_;
   Clock::time_point start_;
   std::string told_;
+  std::chrono::milliseconds pause_ = kFirstPause;
 };
 
 int run(const Arguments& arguments) {

@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cmath>
 #include <fstream>
 #include <memory>
 #include <numbers>
@@ -106,7 +107,12 @@ void declare_simulation(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--disk-period", arguments.disk_period_s,
                   "one turn of the disk [s], negative is clockwise; the setting simulate.disk_period_s if left out")
-      ->check(CLI::Range(1.0, 600.0) | CLI::Range(-600.0, -1.0));
+      ->check([](const std::string& text) {
+        double period_s = 0.0;
+        const bool is_usable =
+            CLI::detail::lexical_cast(text, period_s) && std::abs(period_s) >= 1.0 && std::abs(period_s) <= 600.0;
+        return is_usable ? std::string() : "expected 1 to 600 s or -600 to -1 s, found " + text;
+      });
   command.add_option("--tilt-roll", arguments.roll_deg, "of the robot, left side up, unknown to it [deg]")
       ->check(CLI::Range(-45.0, 45.0));
   command.add_option("--tilt-pitch", arguments.pitch_deg, "of the robot, front down, unknown to it [deg]")
