@@ -26,6 +26,8 @@ struct InputOptions {
   double roll_rad = 0.0;                   ///< of the sensor about x, left side up [rad], in [-pi, pi]
   double pitch_rad = 0.0;                  ///< of the sensor about y, front down [rad], in [-pi/2, pi/2]
   Levelling level = Levelling::None;
+  std::optional<Eigen::Vector3d> sensor;  ///< where it stood, in the file's frame [m]; replaces what the file says
+  bool merged = false;                    ///< the cloud was seen from several places, so no line of sight is known
 
   /// First problem found, worded for the person editing the file; empty when usable.
   std::string problem() const;

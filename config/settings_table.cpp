@@ -76,7 +76,10 @@ void add_input_settings(std::vector<Entry>& table, InputOptions& input) {
       .vector("gravity", input.gravity, "downwards in the frame of a cloud file, e.g. from its IMU; [] is along -z")
       .real("roll", input.roll_rad, kDegree, {-180, 180}, "of the sensor about x, left side up; unused with gravity")
       .real("pitch", input.pitch_rad, kDegree, {-90, 90}, "of the sensor about y, front down; unused with gravity")
-      .choice("level", input.level, {"none", "floor"}, "floor: turn and lift the cloud until its floor is z = 0");
+      .choice("level", input.level, {"none", "floor"}, "floor: turn and lift the cloud until its floor is z = 0")
+      .vector("sensor_m", input.sensor,
+              "where the sensor stood in the frame of the file; [] asks the file, then the mount")
+      .on_off("merged", input.merged, "the cloud was seen from several places: no line of sight is known");
 }
 
 void add_simulation_settings(std::vector<Entry>& table, SimulationOptions& simulate) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,9 @@ namespace stairway::detect {
 
 struct FragmentMergingOptions {
   bool enabled = true;
-  double max_offset_m = 0.025;        ///< between two fragments, across their plane [m]
-  double max_gap_m = 0.20;            ///< between two fragments, in their plane [m]
-  double max_riser_angle_rad = 0.35;  ///< between the normals of two riser fragments [rad]
+  double max_offset_m = 0.025;                        ///< between two fragments, across their plane [m]
+  double max_gap_m = 0.20;                            ///< between two fragments, in their plane [m]
+  double max_riser_angle_rad = std::numbers::pi / 9;  ///< between the normals of two riser fragments [rad]
 
   std::string problem() const;
 };

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@ namespace stairway::detect {
 
 struct InitialisationOptions {
   StepLimits limits;
-  double max_pair_distance_m = 1.0;     ///< between the centroids of two parts of neighbouring steps, horizontally [m]
-  double max_riser_angle_rad = 0.2618;  ///< between the normals of two risers of neighbouring steps [rad]
-  double min_side_overlap_m = 0.10;     ///< of the two parts, across the stairway [m]
+  double max_pair_distance_m = 1.0;  ///< between the centroids of two parts of neighbouring steps, horizontally [m]
+  double max_riser_angle_rad =
+      std::numbers::pi / 12;         ///< between the normals of two risers of neighbouring steps [rad]
+  double min_side_overlap_m = 0.10;  ///< of the two parts, across the stairway [m]
 
   std::string problem() const;
 };

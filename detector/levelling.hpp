@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -11,9 +12,9 @@
 namespace stairway::detect {
 
 struct FloorOptions {
-  double max_tilt_rad = 0.2618;  ///< of the floor against the cloud's own xy plane [rad], in (0, pi/2)
-  double max_distance_m = 0.03;  ///< of a floor point to the floor's plane [m], > 0
-  double min_share = 0.02;       ///< of all points must lie on the floor
+  double max_tilt_rad = std::numbers::pi / 12;  ///< of the floor against the cloud's own xy plane [rad], in (0, pi/2)
+  double max_distance_m = 0.03;                 ///< of a floor point to the floor's plane [m], > 0
+  double min_share = 0.02;                      ///< of all points must lie on the floor
 
   std::string problem() const;
 };

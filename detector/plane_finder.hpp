@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,16 +14,17 @@
 namespace stairway::detect {
 
 struct PlaneFinderOptions {
-  double max_tilt_rad = 0.2618;  ///< normal against horizontal (riser) or vertical (tread) [rad]; the paper's 15 deg
+  double max_tilt_rad =
+      std::numbers::pi / 12;  ///< normal against horizontal (riser) or vertical (tread) [rad]; the paper's 15 deg
   double max_riser_height_m = 0.24;  ///< vertical extent of a riser [m]; DIN 18065's 21 cm and a margin
   double max_tread_depth_m =
       0.40;                   ///< extent of a tread along its second eigenvector [m]; DIN 18065's 37 cm and a margin
   double min_width_m = 0.15;  ///< extent along the first eigenvector [m]; ours: narrower ones are posts and scraps
 
-  bool find_edges = true;              ///< ours: also look for bars along the nosings
-  double max_edge_thickness_m = 0.15;  ///< extent of an edge across its length, in depth and height [m]
-  double min_edge_width_m = 0.40;      ///< its extent along the first eigenvector [m]
-  double max_edge_tilt_rad = 0.1745;   ///< its first eigenvector against horizontal [rad]
+  bool find_edges = true;                            ///< ours: also look for bars along the nosings
+  double max_edge_thickness_m = 0.15;                ///< extent of an edge across its length, in depth and height [m]
+  double min_edge_width_m = 0.40;                    ///< its extent along the first eigenvector [m]
+  double max_edge_tilt_rad = std::numbers::pi / 18;  ///< its first eigenvector against horizontal [rad]
 
   std::string problem() const;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,8 @@
 namespace stairway::detect {
 
 struct RegionGrowingOptions {
-  int num_neighbours = 12;             ///< k of Alg. 1 [points], >= 3
-  double max_normal_angle_rad = 0.35;  ///< normal of a point against the region's [rad], in (0, pi/2)
+  int num_neighbours = 12;                             ///< k of Alg. 1 [points], >= 3
+  double max_normal_angle_rad = std::numbers::pi / 9;  ///< normal of a point against the region's [rad], in (0, pi/2)
   double max_plane_distance_m = 0.03;  ///< point to region plane, eq 1 [m], > 0; three times the range noise
   int min_points = 30;                 ///< a region must have more points than this (the paper's 30)
 

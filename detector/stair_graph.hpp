@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,8 @@ struct ExtensionOptions {
   int max_steps = 200;                   ///< no stairway is longer; bounds the work
   double max_depth_deviation_m = 0.05;   ///< a part complies up to this delta_d [m]
   double max_height_deviation_m = 0.05;  ///< and this delta_h [m]
-  double max_direction_rad = 0.35;       ///< and this delta_s [rad]
-  double min_side_overlap_m = 0.10;      ///< with what the graph spans already [m]
+  double max_direction_rad = std::numbers::pi / 9;  ///< and this delta_s [rad]
+  double min_side_overlap_m = 0.10;                 ///< with what the graph spans already [m]
 
   std::string problem() const;
 };
@@ -50,9 +51,9 @@ StairGraph extend_graph(const StairModel& model, const Interval& side, const std
                         const ExtensionOptions& options = {});
 
 struct ConfirmationOptions {
-  double min_slope_rad = 0.3491;  ///< 20 deg
-  double max_slope_rad = 0.8727;  ///< 50 deg
-  int min_steps = 3;              ///< steps of which some part was found
+  double min_slope_rad = std::numbers::pi / 9;       ///< 20 deg
+  double max_slope_rad = std::numbers::pi * 5 / 18;  ///< 50 deg
+  int min_steps = 3;                                 ///< steps of which some part was found
 
   std::string problem() const;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <numbers>
 #include <string>
 
 #include "detector/extents.hpp"
@@ -36,8 +37,8 @@ struct StepLimits {
   double max_height_m = 0.24;
   double min_depth_m = 0.18;
   double max_depth_m = 0.40;
-  double min_slope_rad = 0.2618;  ///< 15 deg: DIN 18065 and the paper's margin of 5 deg
-  double max_slope_rad = 0.8727;  ///< 50 deg
+  double min_slope_rad = std::numbers::pi / 12;      ///< 15 deg: DIN 18065 and the paper's margin of 5 deg
+  double max_slope_rad = std::numbers::pi * 5 / 18;  ///< 50 deg
 
   std::string problem() const;
   bool allow(double height_m, double depth_m) const;
