@@ -75,6 +75,8 @@ std::optional<Estimate> weighted_mean(const std::vector<Estimate>& estimates) {
 constexpr double kFrontFloor_m = 0.0005;
 constexpr double kHeightFloor_m = 0.001;
 
+constexpr double kEndFloor_m = 0.003;
+constexpr double kUnmeasuredEnd_m = 0.03;  // an end known from the parts alone
 constexpr double kGraphSigma_m = 0.010;
 constexpr double kUsualOverhang_m = 0.015;
 constexpr double kMostOverhang_m = 0.06;
@@ -125,9 +127,10 @@ class JointFitter {
         steps_.insert(steps_.end(), more.begin(), more.end());
       }
     }
-    if (steps_.size() < 2) return false;
     std::sort(steps_.begin(), steps_.end(),
               [](const StepMeasurement& a, const StepMeasurement& b) { return a.number < b.number; });
+    keep_longest_run();
+    if (steps_.size() < 2) return false;
     fit_.first = steps_.front().number;
     fit_.last = steps_.back().number;
     fit_.seen_steps = static_cast<int>(steps_.size());
@@ -136,6 +139,23 @@ class JointFitter {
       fit_.measurements += static_cast<int>(step.front.has_value()) + static_cast<int>(step.surface.has_value()) +
                            static_cast<int>(step.underside.has_value());
     return true;
+  }
+
+  // A graph may have taken in a part far beyond the last step; what follows a gap is another thing.
+  void keep_longest_run() {
+    std::size_t best_begin = 0;
+    std::size_t best_end = 0;
+    for (std::size_t begin = 0, end = 0; begin < steps_.size(); begin = end) {
+      for (end = begin + 1;
+           end < steps_.size() && steps_[end].number - steps_[end - 1].number <= options_.max_unseen_steps; ++end) {
+      }
+      if (end - begin > best_end - best_begin) {
+        best_begin = begin;
+        best_end = end;
+      }
+    }
+    steps_.assign(steps_.begin() + static_cast<std::ptrdiff_t>(best_begin),
+                  steps_.begin() + static_cast<std::ptrdiff_t>(best_end));
   }
 
   void fit_direction() {
@@ -213,6 +233,16 @@ class JointFitter {
     fit_.sigmas.height_m = solution.sigmas[kRise];
   }
 
+  // Posts and bystanders cut steps short, nothing makes them longer: the outer quartile of their ends is the flight's.
+  static std::optional<Estimate> outer_end(std::vector<double> ends, double outward) {
+    if (ends.size() < 2) return std::nullopt;
+    std::sort(ends.begin(), ends.end(), [&](double a, double b) { return outward * a > outward * b; });
+    const double end = ends[ends.size() / 4];
+    double scatter = 0.0;
+    for (std::size_t i = 0; i <= ends.size() / 2; ++i) scatter = std::max(scatter, std::abs(ends[i] - end));
+    return Estimate{end, std::max(scatter / std::sqrt(static_cast<double>(ends.size())), kEndFloor_m)};
+  }
+
   void fit_sides() {
     std::vector<double> rights;
     std::vector<double> lefts;
@@ -220,12 +250,11 @@ class JointFitter {
       if (step.right_end) rights.push_back(step.right_end->value);
       if (step.left_end) lefts.push_back(step.left_end->value);
     }
-    const auto middle_of = [](std::vector<double>& values) {
-      std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-      return values[values.size() / 2];
-    };
-    if (rights.size() >= 2) fit_.side.low = middle_of(rights);
-    if (lefts.size() >= 2) fit_.side.high = middle_of(lefts);
+    const std::optional<Estimate> right = outer_end(std::move(rights), -1.0);
+    const std::optional<Estimate> left = outer_end(std::move(lefts), +1.0);
+    if (right) fit_.side.low = right->value;
+    if (left) fit_.side.high = left->value;
+    fit_.side_sigma_m = std::hypot(right ? right->sigma : kUnmeasuredEnd_m, left ? left->sigma : kUnmeasuredEnd_m);
   }
 
   const JointFitOptions& options_;
