@@ -100,6 +100,8 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
       .whole("passes", joint_fit.passes, 1, 100, "of measuring all steps and fitting the model to them")
       .whole("max_unseen_steps", joint_fit.max_unseen_steps, 0, 100,
              "a stairway ends after this many steps in a row without points")
+      .real("max_sigma", joint_fit.max_sigma_m, kMillimetre, {0.1, 1000},
+            "of step height and depth; what is less certain is no stairway to climb")
       .real("min_seen_share", joint_fit.min_seen_share, kPlain, {0, 1},
             "of the steps from the first to the last seen, so many must show points")
       .real("range_sigma", joint_fit.measurement.range_sigma_m, kMillimetre, {0.1, 500}, "noise of one point")

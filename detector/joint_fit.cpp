@@ -282,6 +282,7 @@ std::string broken_rule(const JointFit& fit, const StepLimits& limits, const Con
   if (std::string rule = broken_rule(fit.model, fit.seen_steps, confirmation); !rule.empty()) return rule;
   if (!limits.allow(fit.model.height_m, fit.model.depth_m)) return "step-size-out-of-range";
   if (fit.seen_steps < options.min_seen_share * (fit.last - fit.first + 1)) return "steps-missing";
+  if (std::max(fit.sigmas.height_m, fit.sigmas.depth_m) > options.max_sigma_m) return "too-uncertain";
   return {};
 }
 

@@ -17,6 +17,7 @@ struct JointFitOptions {
   int passes = 6;            ///< of measuring all steps and fitting the model to them
   int max_unseen_steps = 2;  ///< the stairway ends after this many steps in a row of which no point is found
 
+  double max_sigma_m = 0.010;  ///< of step height and depth; what is less certain than this is no stairway to climb [m]
   double min_seen_share = 0.6;  ///< of the steps from the first to the last seen, so many must show points
 
   std::string problem() const;
@@ -46,7 +47,7 @@ std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGr
                                     const JointFitOptions& options = {});
 
 /// The rule a joint fit breaks, or an empty string when the points bear the stairway out.
-/// Rules: those of broken_rule() for graphs, "step-size-out-of-range", "steps-missing".
+/// Rules: those of broken_rule() for graphs, "step-size-out-of-range", "steps-missing", "too-uncertain".
 std::string broken_rule(const JointFit& fit, const StepLimits& limits, const ConfirmationOptions& confirmation,
                         const JointFitOptions& options);
 

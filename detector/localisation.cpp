@@ -87,8 +87,6 @@ std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stair
                                    [&](const FittedStairway& other) { return lies_within(candidate, other); });
     if (!known) kept.push_back(std::move(candidate));
   }
-  std::stable_sort(kept.begin(), kept.end(),
-                   [](const FittedStairway& a, const FittedStairway& b) { return a.score > b.score; });
   return kept;
 }
 

@@ -33,7 +33,7 @@ struct FittedStairway {
 FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& parts);
 
 /// Drops every stairway of which more than half the steps lie within one with more evidence: it is the same one, found
-/// from other parts. The result is ordered by score.
+/// from other parts. The result is ordered by falling evidence.
 std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stairways);
 
 /// Turns a fit into the stairway a robot can climb: first step on the ground, ends, anchor and every nosing.

@@ -54,7 +54,7 @@ struct Rejection {
 
 /// The answer for one cloud.
 struct Detection {
-  std::vector<Stairway> stairways;  ///< best score first
+  std::vector<Stairway> stairways;  ///< the one with most evidence first
   std::vector<Rejection> rejected;
 };
 

@@ -38,7 +38,7 @@ using StageListener = std::function<void(std::string_view stage)>;
 /// Finds the stairways in a cloud (the paper's Fig 4, from the input cloud to the localized stairway).
 ///
 /// @param cloud  points in the `base` frame, z up, floor at z = 0 [m]; points that are not finite are ignored.
-/// @return stairways by falling score; when there is none, `rejected` says how far the best candidate came.
+/// @return stairways by falling evidence; when there is none, `rejected` says how far the best candidate came.
 /// Never throws on any cloud. Single-threaded; deterministic. Cost: O(N log N) in the number of points.
 Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions& options = {},
                            const StageListener& on_stage = {});

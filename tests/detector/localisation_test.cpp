@@ -53,8 +53,8 @@ TEST(Localisation, keeps_one_of_two_descriptions_of_the_same_stairway) {
   elsewhere.score = 7.0;
   const std::vector<FittedStairway> kept = without_duplicates({poor, good, elsewhere});
   ASSERT_EQ(kept.size(), 2U);
-  EXPECT_EQ(kept[0].score, 7.0) << "ordered by score";
-  EXPECT_EQ(kept[1].evidence, 20) << "the better supported of the two";
+  EXPECT_EQ(kept[0].evidence, 20) << "the better supported of the two";
+  EXPECT_EQ(kept[1].evidence, 3);
 }
 
 TEST(Localisation, reads_the_ends_off_the_outer_parts) {
