@@ -47,13 +47,17 @@ const std::vector<std::string> kCamera{"--profile", "depth-camera"};
 const std::vector<std::string> kCameraAsTaken{"--profile", "depth-camera",     "--set", "input.gravity=[1, 0, 0]",
                                               "--set",     "input.level=floor"};
 
+// The first reading of the metal stair divides its run of 4.97 m by 22 risers: 226 mm. Between its first and its last
+// nosing lie 21 treads, which makes 237 mm; where the fit comes nearer to that, the upper limit follows.
+const std::vector<std::string> kSeenFromAbove{"--set", "input.sensor_m=[0.2, 0, 1.72]"};
+const std::vector<std::string> kAsTaken{"--set", "input.level=floor", "--set", "input.sensor_m=[0, 0, 0]"};
+
 INSTANTIATE_TEST_SUITE_P(
     All, RealClouds,
-    ::testing::Values(
-        RealStair{"lidar_metal_stair.pcd", {}, 0.194, 0.202, 0.218, 0.234},
-        RealStair{"lidar_metal_stair_unlevelled.pcd", {"--set", "input.level=floor"}, 0.194, 0.202, 0.218, 0.234},
-        RealStair{"kinect2_stair_level.pcd", kCamera, 0.104, 0.112, 0.270, 0.283},
-        RealStair{"kinect2_stair.pcd", kCameraAsTaken, 0.104, 0.112, 0.270, 0.283}),
+    ::testing::Values(RealStair{"lidar_metal_stair.pcd", kSeenFromAbove, 0.194, 0.202, 0.218, 0.234},
+                      RealStair{"lidar_metal_stair_unlevelled.pcd", kAsTaken, 0.194, 0.202, 0.218, 0.242},
+                      RealStair{"kinect2_stair_level.pcd", kCamera, 0.104, 0.112, 0.270, 0.283},
+                      RealStair{"kinect2_stair.pcd", kCameraAsTaken, 0.104, 0.112, 0.270, 0.283}),
     [](const auto& stair) { return std::filesystem::path(stair.param.file).stem().string(); });
 
 }  // namespace
