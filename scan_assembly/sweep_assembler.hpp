@@ -76,7 +76,7 @@ struct Sweep {
 class SweepAssembler {
  public:
   /// @pre  options.problem() is empty.
-  SweepAssembler(const Calibration& calibration, const SweepOptions& options = {});
+  explicit SweepAssembler(const Calibration& calibration, const SweepOptions& options = {});
 
   void add(drivers::LaserScan scan);
   void add(std::span<const drivers::AngleSample> samples);
