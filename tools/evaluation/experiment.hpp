@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "config/settings.hpp"
+
+namespace stairway::evaluation {
+
+/// A column of a table: reals are shown with `digits` behind the point.
+struct Column {
+  std::string name;  ///< machine-readable in JSON, e.g. "step_height"
+  std::string unit;  ///< "" for plain numbers and names
+  int digits = 2;
+};
+
+/// Empty where there is nothing to tell: a figure the paper does not state, a mean over nothing.
+using Cell = std::variant<std::monostate, double, std::string>;
+
+struct Table {
+  std::string name;   ///< machine-readable, one per result, e.g. "series-I"
+  std::string title;  ///< for a person
+  std::vector<Column> columns;
+  std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
+};
+
+/// One line of points, or one colour of bars.
+struct Curve {
+  std::string name;
+  std::vector<double> x;  ///< for bars: the index of the category
+  std::vector<double> y;
+  std::vector<double> spread;  ///< half the height of an error bar at each point; may be empty
+  bool from_paper = false;     ///< drawn apart from what was measured here
+};
+
+struct Chart {
+  std::string name;  ///< stem of its file, e.g. "series-height-error"
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  std::vector<std::string> categories;  ///< bars when not empty, else points joined by lines
+  std::vector<Curve> curves;
+  bool logarithmic = false;  ///< both axes
+};
+
+struct Result {
+  std::vector<Table> tables;
+  std::vector<Chart> charts;
+  std::vector<std::string> notes;  ///< what a reader must know to read the figures
+};
+
+/// How an experiment is to be run.
+struct Request {
+  config::Settings settings;   ///< detector, mount; the simulated noise is that of sim::ScannerOptions
+  std::uint64_t seed = 1;      ///< the same seed gives the same figures, times apart
+  double share = 1.0;          ///< of the runs that the experiment makes by default, in (0, 1]; at least one each
+  std::filesystem::path data;  ///< recorded data for experiments that can use them; may be empty
+  /// Told what part is done, 0 to 1, and what comes next; may be empty.
+  std::function<void(double done, std::string_view next)> progress;
+};
+
+/// One experiment of the paper, repeated on simulated ground truth.
+struct Experiment {
+  std::string_view name;  ///< as on the command line, e.g. "series"
+  std::string_view summary;
+  Result (*run)(const Request& request);
+};
+
+/// All experiments, in the order of the paper.
+std::span<const Experiment> experiments();
+
+}  // namespace stairway::evaluation
