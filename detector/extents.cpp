@@ -5,18 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
+
+#include "detector/statistics.hpp"
 
 namespace stairway::detect {
 namespace {
 
 constexpr std::size_t kMinPointsPerStrip = 3;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -59,7 +56,7 @@ Interval robust_extent(std::span<const Eigen::Vector3f> points, std::span<const 
     highs.push_back(strip.extent.high);
   }
   if (lows.empty()) return full_extent(points, chosen, axis);
-  return {median(lows), median(highs)};
+  return {median(std::move(lows)), median(std::move(highs))};
 }
 
 }  // namespace stairway::detect

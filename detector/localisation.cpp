@@ -5,17 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detector/statistics.hpp"
+
 namespace stairway::detect {
 namespace {
 
 constexpr double kGround_m = 0.0;
-
-// Parts are cut short by what hides them and hardly ever too long: the outer quartile of their ends is the stairway's.
-double outer_quartile(std::vector<double> ends, bool high) {
-  std::sort(ends.begin(), ends.end());
-  const auto from_outside = static_cast<std::size_t>(0.25 * static_cast<double>(ends.size() - 1));
-  return high ? ends[ends.size() - 1 - from_outside] : ends[from_outside];
-}
 
 double standard_error(const std::vector<double>& values) {
   if (values.size() < 2) return 0.0;
@@ -68,6 +63,7 @@ FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& pa
     lefts.push_back(extent.high);
   }
   return {.model = graph.model,
+          // Parts are cut short by what hides them and hardly ever too long.
           .side = {outer_quartile(rights, false), outer_quartile(lefts, true)},
           .side_sigma_m = std::hypot(standard_error(rights), standard_error(lefts)),
           .sigmas = winner.sigmas,
