@@ -11,10 +11,9 @@ namespace {
 // The robot stands on z = 0: what starts below that is looked down upon.
 View view_of(const StairModel& model) { return model.nosing.z() < 0.0 ? View::FromAbove : View::FromBelow; }
 
-Interval starting_side(const Initialisation& start, const std::vector<StairPart>& parts) {
-  const Eigen::Vector3d left = start.model.step(0).left();
-  const Interval a = part_extent(parts[start.parts[0]], left);
-  const Interval b = part_extent(parts[start.parts[1]], left);
+Interval starting_sides(const Initialisation& start, const std::vector<StairPart>& parts) {
+  const Interval a = sides_of(parts[start.parts[0]], start.model.step(0));
+  const Interval b = sides_of(parts[start.parts[1]], start.model.step(1));
   return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
 
@@ -55,7 +54,7 @@ class Competition {
     if (is_taken(start.parts[0]) || is_taken(start.parts[1])) return std::nullopt;
     Winner candidate{.graph = {}, .view = view_of(start.model)};
     candidate.graph =
-        extend_graph(start.model, starting_side(start, parts_), parts_, candidate.view, options_.extension);
+        extend_graph(start.model, starting_sides(start, parts_), parts_, candidate.view, options_.extension);
     if (!is_free(candidate.graph)) return std::nullopt;
     if (const std::string rule = broken_rule(candidate.graph, options_.confirmation); !rule.empty()) {
       remember(rule, candidate.graph);
@@ -67,7 +66,7 @@ class Competition {
 
   void optimise(Winner& winner) const {
     const StairFit fit = fit_stairway(winner.graph, parts_, winner.view);
-    StairGraph extended = extend_graph(fit.model, winner.graph.side, parts_, winner.view, options_.extension);
+    StairGraph extended = extend_graph(fit.model, winner.graph.sides, parts_, winner.view, options_.extension);
     if (!is_free(extended) || !broken_rule(extended, options_.confirmation).empty() ||
         extended.seen_steps() < winner.graph.seen_steps())
       return;

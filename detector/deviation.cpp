@@ -25,10 +25,13 @@ Deviation riser_deviation(const StairModel& model, const StepFrame& step, const 
   return result;
 }
 
-Deviation tread_deviation(const StairModel& model, const StepFrame& step, const StairPart& tread, View view) {
+// Depths of a tread are taken along the direction in its middle, which on a spiral lies between those of two nosings.
+Deviation tread_deviation(const StairModel& model, int number, const StairPart& tread, View view) {
   Deviation result;
-  const Interval extent = part_extent(tread, step.descent);
-  const double front_est = step.nosing.dot(step.descent);
+  const StepFrame step = model.step(number);
+  const StepFrame middle = model.step(number + 0.5);
+  const Interval extent = part_extent(tread, middle.descent);
+  const double front_est = middle.nosing.dot(middle.descent) + 0.5 * model.depth_m;
   const double back_est = front_est - model.depth_m;
   if (view == View::FromBelow) {
     // Eq 16 read like eq 8: as printed, its two excesses would have opposite signs along one axis.
@@ -61,13 +64,19 @@ Interval part_extent(const StairPart& part, const Eigen::Vector3d& axis) {
   return extent;
 }
 
+Interval sides_of(const StairPart& part, const StepFrame& step) {
+  const Interval extent = part_extent(part, step.left());
+  const double middle = step.nosing.dot(step.left());
+  return {extent.low - middle, extent.high - middle};
+}
+
 Deviation deviation(const StairModel& model, int number, const StairPart& part, View view) {
   const StepFrame step = model.step(number);
   switch (part.kind) {
     case StairPart::Kind::Riser:
       return riser_deviation(model, step, part, view);
     case StairPart::Kind::Tread:
-      return tread_deviation(model, step, part, view);
+      return tread_deviation(model, number, part, view);
     case StairPart::Kind::Edge:
       break;
   }

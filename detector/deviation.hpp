@@ -26,4 +26,7 @@ Deviation deviation(const StairModel& model, int number, const StairPart& part, 
 /// Extent of a part along the horizontal unit direction `axis`, from the middles of its edges [m].
 Interval part_extent(const StairPart& part, const Eigen::Vector3d& axis);
 
+/// What a part spans along left() of a step, from its nosing on the model's middle line [m].
+Interval sides_of(const StairPart& part, const StepFrame& step);
+
 }  // namespace stairway::detect

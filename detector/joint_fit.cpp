@@ -5,90 +5,139 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "detector/statistics.hpp"
 
 namespace stairway::detect {
 namespace {
 
-// a + j d is the nosing of step j along the ascent, b + j h its height, o how far it stands out before its front, t the
-// thickness of its tread.
-enum Unknown { kNosing, kDepth, kHeight, kRise, kOverhang, kThickness, kUnknowns };
-using Row = Eigen::Matrix<double, kUnknowns, 1>;
+// Changes of the model from where a pass of the fit begins, so that all are small and of like size.
+enum Unknown { kAlong, kDepth, kHeight, kRise, kOverhang, kThickness, kHeading, kTurn, kUnknowns };
+using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
-struct Observation {
-  Row row;  ///< what multiplies the unknowns
-  Estimate estimate;
-};
-
-struct Solution {
-  Row unknowns;
-  Row sigmas;
-};
-
-// Weighted least squares with outliers set aside (weights fall with the square of the residual beyond two sigmas).
-Solution solve(const std::vector<Observation>& observations, const Row& start) {
-  constexpr int kRounds = 6;
-  using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-  Solution solution{start, Row::Zero()};
-  std::vector<double> weights(observations.size(), 1.0);
-  for (int round = 0; round < kRounds; ++round) {
-    Matrix information = Matrix::Zero();
-    Row right = Row::Zero();
-    for (std::size_t i = 0; i < observations.size(); ++i) {
-      const auto& [row, estimate] = observations[i];
-      const double weight = weights[i] / (estimate.sigma * estimate.sigma);
-      information += weight * row * row.transpose();
-      right += weight * row * (estimate.value - row.dot(start));
-    }
-    const Eigen::CompleteOrthogonalDecomposition<Matrix> solver(information);
-    solution.unknowns = start + solver.solve(right);
-
-    std::vector<double> sizes;
-    for (const auto& [row, estimate] : observations)
-      sizes.push_back(std::abs(estimate.value - row.dot(solution.unknowns)) / estimate.sigma);
-    std::vector<double> sorted = sizes;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    const double scale = std::max(1.0, 1.4826 * sorted[sorted.size() / 2]);
-    double chi2 = 0.0;
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-      const double size = sizes[i] / scale;
-      weights[i] = size < 2.0 ? 1.0 : 4.0 / (size * size);
-      chi2 += weights[i] * sizes[i] * sizes[i];
-    }
-    const double freedom = std::max(1.0, static_cast<double>(observations.size()) - static_cast<double>(kUnknowns));
-    const Matrix covariance = solver.pseudoInverse() * std::max(1.0, chi2 / freedom);
-    solution.sigmas = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  }
-  return solution;
+StairModel moved(const StairModel& start, const Unknowns& change) {
+  StairModel model = start;
+  model.nosing += -change[kAlong] * start.descent + change[kHeight] * Eigen::Vector3d::UnitZ();
+  model.depth_m += change[kDepth];
+  model.height_m += change[kRise];
+  model.overhang_m += change[kOverhang];
+  model.tread_thickness_m += change[kThickness];
+  model.descent = Eigen::AngleAxisd(change[kHeading], Eigen::Vector3d::UnitZ()) * start.descent;
+  if (start.is_spiral()) model.turn_rad += change[kTurn];
+  return model;
 }
 
-std::optional<Estimate> weighted_mean(const std::vector<Estimate>& estimates) {
-  double w = 0.0, wx = 0.0;
-  for (const Estimate& e : estimates) {
-    w += 1.0 / (e.sigma * e.sigma);
-    wx += e.value / (e.sigma * e.sigma);
+struct Solution {
+  Unknowns change = Unknowns::Zero();
+  Unknowns sigmas = Unknowns::Zero();
+};
+
+/// Residuals over their sigmas, as a function of the unknowns.
+using Residuals = std::function<Eigen::VectorXd(const Unknowns&)>;
+
+Eigen::MatrixXd jacobian(const Residuals& residuals, const Unknowns& at) {
+  constexpr double kStep = 1e-6;
+  Eigen::MatrixXd result;
+  for (int k = 0; k < kUnknowns; ++k) {
+    const Unknowns step = kStep * Unknowns::Unit(k);
+    const Eigen::VectorXd column = (residuals(at + step) - residuals(at - step)) / (2.0 * kStep);
+    if (k == 0) result.resize(column.size(), kUnknowns);
+    result.col(k) = column;
   }
-  if (w == 0.0) return std::nullopt;
-  return Estimate{wx / w, std::sqrt(1.0 / w)};
+  return result;
+}
+
+// Weights fall with the square of the residual beyond two sigmas, so outliers are set aside.
+Eigen::VectorXd robust_weights(const Eigen::VectorXd& residuals) {
+  constexpr double kInlier = 2.0;
+  const Eigen::VectorXd sizes = residuals.cwiseAbs();
+  const double scale = std::max(1.0, 1.4826 * median({sizes.begin(), sizes.end()}));
+  return (sizes / scale).unaryExpr([](double size) {
+    return size < kInlier ? 1.0 : kInlier * kInlier / (size * size);
+  });
+}
+
+// Gauss-Newton with the weights taken anew in each round. Unknowns that nothing depends on stay where they are.
+Solution solve(const Residuals& residuals) {
+  constexpr int kRounds = 6;
+  using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+  Solution solution;
+  Eigen::VectorXd r = residuals(solution.change);
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(r.size());
+  Matrix information = Matrix::Zero();
+  for (int round = 0; round < kRounds; ++round) {
+    const Eigen::MatrixXd J = jacobian(residuals, solution.change);
+    information = J.transpose() * weights.asDiagonal() * J;
+    const Unknowns gradient = J.transpose() * weights.cwiseProduct(r);
+    solution.change -= information.completeOrthogonalDecomposition().solve(gradient);
+    r = residuals(solution.change);
+    weights = robust_weights(r);
+  }
+  const double freedom = std::max(1.0, static_cast<double>(r.size()) - static_cast<double>(kUnknowns));
+  const double misfit = std::max(1.0, weights.dot(r.cwiseAbs2()) / freedom);
+  const Matrix covariance = information.completeOrthogonalDecomposition().pseudoInverse() * misfit;
+  solution.sigmas = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  return solution;
 }
 
 // What one measurement of a front or an edge may be off by for reasons its scatter does not show.
 constexpr double kFrontFloor_m = 0.0005;
 constexpr double kHeightFloor_m = 0.001;
 
+constexpr double kTurnFloor_rad = 0.0002;
+
 constexpr double kEndFloor_m = 0.003;
+constexpr double kNarrowest_m = 0.1;
 constexpr double kUnmeasuredEnd_m = 0.03;  // an end known from the parts alone
 constexpr double kGraphSigma_m = 0.010;
+constexpr double kGraphSigma_rad = 0.03;
+constexpr double kHeadingStep_rad = 0.1;
 constexpr double kUsualOverhang_m = 0.015;
 constexpr double kMostOverhang_m = 0.06;
 constexpr double kUsualThickness_m = 0.04;
 
+// How far a measured step lies from that of a model, in sigmas.
+class StepResiduals {
+ public:
+  StepResiduals(const StairModel& model, std::vector<double>& residuals) : model_(model), residuals_(residuals) {}
+
+  void add(const StepMeasurement& step) {
+    const StepFrame predicted = model_.step(step.number);
+    const double rise = predicted.nosing.z() - step.frame.nosing.z();
+    if (step.front) {
+      const Eigen::Vector3d front = step.frame.from_step({step.front->value, step.middle_v, 0.0});
+      add(predicted.to_step(front).u - model_.overhang_m, step.front->sigma, kFrontFloor_m);
+    }
+    if (step.turn) {
+      const double turned = -predicted.descent.dot(step.frame.left());  // small angle
+      add(turned + step.turn->value, step.turn->sigma, kTurnFloor_rad);
+    }
+    if (step.surface) add(step.surface->value - rise, step.surface->sigma, kHeightFloor_m);
+    if (step.underside)
+      add(step.underside->value + model_.tread_thickness_m - rise, step.underside->sigma, kHeightFloor_m);
+    // Over a front the tread itself, where it is seen, tells the height better.
+    if (step.nosing && !(step.nosing->over_a_front && step.surface)) {
+      const StepPoint p = predicted.to_step(step.frame.from_step(step.nosing->at));
+      const double off = p.z * step.nosing->along_u - p.u * step.nosing->along_z;
+      add(off, step.nosing->sigma_m, kHeightFloor_m);
+    }
+  }
+
+ private:
+  void add(double residual, double sigma, double floor) { residuals_.push_back(residual / std::hypot(sigma, floor)); }
+
+  const StairModel& model_;
+  std::vector<double>& residuals_;
+};
+
 class JointFitter {
  public:
-  JointFitter(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& side,
+  JointFitter(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& sides, View view,
               const JointFitOptions& options)
-      : options_(options), graph_model_(graph.model), corridor_(cloud, graph.model, side) {
+      : options_(options), prior_(graph.model), view_(view), corridor_(cloud, graph.model, sides) {
     fit_.model = graph.model;
-    fit_.side = side;
+    fit_.sides = sides;
     fit_.first = graph.parts.front().step;
     fit_.last = graph.parts.back().step;
   }
@@ -97,48 +146,61 @@ class JointFitter {
     for (int pass = 0; pass < options_.passes; ++pass) {
       if (!measure()) return std::nullopt;
       fit_steps();
-      fit_direction();
-      fit_sides();
+      if (!fit_sides()) return std::nullopt;
     }
     return fit_;
   }
 
  private:
-  std::vector<StepMeasurement> seen(int first, int last) const {
-    std::vector<StepMeasurement> steps = corridor_.measure(fit_.model, fit_.side, first, last, options_.measurement);
-    std::erase_if(steps, [&](const StepMeasurement& step) { return !step.seen() || is_ground(step.number); });
-    return steps;
+  std::optional<StepMeasurement> seen(int number) const {
+    if (!may_be_step(number)) return std::nullopt;
+    StepMeasurement step = measure_step(corridor_, fit_.model, fit_.sides, number, options_.measurement);
+    if (!step.seen() || (is_ground(number) && !step.nosing)) return std::nullopt;
+    return step;
   }
 
-  // The floor the robot stands on looks like a tread at z = 0, but is no step.
+  // The floor the robot stands on looks like a tread at z = 0. Its edge is the last nosing of a descent; else it is no
+  // step.
   bool is_ground(int number) const { return std::abs(fit_.model.step(number).nosing.z()) < 0.5 * fit_.model.height_m; }
+  bool may_be_step(int number) const {
+    if (view_ == View::FromBelow) return !is_ground(number);
+    return fit_.model.step(number).nosing.z() < 0.5 * fit_.model.height_m;
+  }
 
   // Measures the known steps and looks for more beyond both ends.
   bool measure() {
-    steps_ = seen(fit_.first, fit_.last);
-    for (int direction : {+1, -1}) {
+    steps_.clear();
+    const auto look_at = [&](int number) {
+      std::optional<StepMeasurement> step = seen(number);
+      if (step) steps_.push_back(std::move(*step));
+      return step.has_value();
+    };
+    for (int number = fit_.first; number <= fit_.last; ++number) look_at(number);
+    for (const int direction : {+1, -1}) {
       int unseen = 0;
-      for (int number = direction > 0 ? fit_.last + 1 : fit_.first - 1; unseen < options_.max_unseen_steps;
-           number += direction) {
-        if (is_ground(number)) break;
-        if (std::abs(number) > 200) break;
-        std::vector<StepMeasurement> more = seen(number, number);
-        unseen = more.empty() ? unseen + 1 : 0;
-        steps_.insert(steps_.end(), more.begin(), more.end());
-      }
+      for (int number = direction > 0 ? fit_.last + 1 : fit_.first - 1;
+           unseen < options_.max_unseen_steps && may_be_step(number) && std::abs(number) <= options_.max_steps;
+           number += direction)
+        unseen = look_at(number) ? 0 : unseen + 1;
     }
     std::sort(steps_.begin(), steps_.end(),
               [](const StepMeasurement& a, const StepMeasurement& b) { return a.number < b.number; });
     keep_longest_run();
+    leave_lower_floor();
     if (steps_.size() < 2) return false;
     fit_.first = steps_.front().number;
     fit_.last = steps_.back().number;
     fit_.seen_steps = static_cast<int>(steps_.size());
     fit_.measurements = 0;
-    for (const StepMeasurement& step : steps_)
-      fit_.measurements += static_cast<int>(step.front.has_value()) + static_cast<int>(step.surface.has_value()) +
-                           static_cast<int>(step.underside.has_value());
+    for (const StepMeasurement& step : steps_) fit_.measurements += step.count();
     return true;
+  }
+
+  // Below a descent the floor goes on where the next tread would be; unlike a tread it has no edge.
+  void leave_lower_floor() {
+    if (view_ == View::FromBelow) return;
+    const auto has_edge = [](const StepMeasurement& step) { return step.front || step.nosing; };
+    steps_.erase(steps_.begin(), std::find_if(steps_.begin(), steps_.end(), has_edge));
   }
 
   // A graph may have taken in a part far beyond the last step; what follows a gap is another thing.
@@ -158,79 +220,28 @@ class JointFitter {
                   steps_.begin() + static_cast<std::ptrdiff_t>(best_end));
   }
 
-  void fit_direction() {
-    std::vector<Estimate> turns;
-    for (const StepMeasurement& step : steps_)
-      if (step.turn) turns.push_back(*step.turn);
-    const std::optional<Estimate> turn = weighted_mean(turns);
-    if (!turn) return;
-    StairModel& model = fit_.model;
-    const Eigen::Vector3d left = model.step(0).left();
-    // Turn about the middle of the first nosing, where the fronts were measured.
-    model.nosing += left * (fit_.side.middle() - model.nosing.dot(left));
-    model.descent = (model.descent + turn->value * left).normalized();
-    fit_.sigmas.heading_rad = turn->sigma;
-    const double middle = model.nosing.dot(model.step(0).left());
-    fit_.side = {middle - 0.5 * fit_.side.length(), middle + 0.5 * fit_.side.length()};
-  }
-
-  std::vector<Observation> observations() const {
-    const StairModel& model = fit_.model;
-    std::vector<Observation> rows;
-    const auto add = [&](const Row& row, double value, double sigma, double floor) {
-      rows.push_back({row, {value, std::hypot(sigma, floor)}});
-    };
+  Eigen::VectorXd residuals(const Unknowns& change) const {
+    const StairModel model = moved(fit_.model, change);
+    std::vector<double> rows;
     // What the graph says keeps the unknowns that the points leave open.
-    add(Row::Unit(kDepth), graph_model_.depth_m, kGraphSigma_m, 0.0);
-    add(Row::Unit(kRise), graph_model_.height_m, kGraphSigma_m, 0.0);
-    add(Row::Unit(kOverhang), 0.0, kUsualOverhang_m, 0.0);
-    add(Row::Unit(kThickness), kUsualThickness_m, kUsualThickness_m, 0.0);
-    for (const StepMeasurement& step : steps_) {
-      const double j = step.number;
-      Row nosing = Row::Zero();
-      nosing[kNosing] = 1.0;
-      nosing[kDepth] = j;
-      const Row front = nosing + Row(Row::Unit(kOverhang));
-      Row surface = Row::Zero();
-      surface[kHeight] = 1.0;
-      surface[kRise] = j;
-      if (step.front) add(front, step.front->value, step.front->sigma, kFrontFloor_m);
-      if (step.surface) add(surface, step.surface->value, step.surface->sigma, kHeightFloor_m);
-      if (step.underside) {
-        Row underside = surface;
-        underside[kThickness] = -1.0;
-        add(underside, step.underside->value, step.underside->sigma, kHeightFloor_m);
-      }
-      if (step.nosing && !step.surface) {
-        // The line of sight rises by `slope`; the nosing lies on it, wherever along u that is.
-        double slope = 0.0;
-        double foot = step.nosing_u;
-        if (const auto& sensor = corridor_.sensor()) {
-          foot = -sensor->dot(model.descent);
-          slope = (step.nosing->value - sensor->z()) / (step.nosing_u - foot);
-        }
-        add(surface - slope * nosing, step.nosing->value - slope * step.nosing_u, step.nosing->sigma, kHeightFloor_m);
-      }
-    }
-    return rows;
+    rows.push_back((model.depth_m - prior_.depth_m) / kGraphSigma_m);
+    rows.push_back((model.height_m - prior_.height_m) / kGraphSigma_m);
+    rows.push_back((model.turn_rad - prior_.turn_rad) / kGraphSigma_rad);
+    rows.push_back(model.overhang_m / kUsualOverhang_m);
+    rows.push_back((model.tread_thickness_m - kUsualThickness_m) / kUsualThickness_m);
+    rows.push_back(change[kHeading] / kHeadingStep_rad);
+    StepResiduals of_steps(model, rows);
+    for (const StepMeasurement& step : steps_) of_steps.add(step);
+    return Eigen::Map<const Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size()));
   }
 
   void fit_steps() {
-    const std::vector<Observation> rows = observations();
-    if (rows.empty()) return;
-    StairModel& model = fit_.model;
-    const double place = -model.nosing.dot(model.descent);
-    Row start;
-    start << place, model.depth_m, model.nosing.z(), model.height_m, model.overhang_m, model.tread_thickness_m;
-    const Solution solution = solve(rows, start);
-    model.nosing -= model.descent * (solution.unknowns[kNosing] - place);
-    model.nosing.z() = solution.unknowns[kHeight];
-    model.depth_m = solution.unknowns[kDepth];
-    model.height_m = solution.unknowns[kRise];
-    model.overhang_m = std::clamp(solution.unknowns[kOverhang], 0.0, kMostOverhang_m);
-    model.tread_thickness_m = solution.unknowns[kThickness];
-    fit_.sigmas.depth_m = solution.sigmas[kDepth];
-    fit_.sigmas.height_m = solution.sigmas[kRise];
+    const Solution solution = solve([this](const Unknowns& change) { return residuals(change); });
+    fit_.model = moved(fit_.model, solution.change);
+    fit_.model.overhang_m = std::clamp(fit_.model.overhang_m, 0.0, kMostOverhang_m);
+    fit_.sigmas = {.height_m = solution.sigmas[kRise],
+                   .depth_m = solution.sigmas[kDepth],
+                   .heading_rad = solution.sigmas[kHeading]};
   }
 
   // Posts and bystanders cut steps short, nothing makes them longer: the outer quartile of their ends is the flight's.
@@ -243,7 +254,8 @@ class JointFitter {
     return Estimate{end, std::max(scatter / std::sqrt(static_cast<double>(ends.size())), kEndFloor_m)};
   }
 
-  void fit_sides() {
+  // Also puts the middle line into the middle of the sides.
+  bool fit_sides() {
     std::vector<double> rights;
     std::vector<double> lefts;
     for (const StepMeasurement& step : steps_) {
@@ -252,13 +264,20 @@ class JointFitter {
     }
     const std::optional<Estimate> right = outer_end(std::move(rights), -1.0);
     const std::optional<Estimate> left = outer_end(std::move(lefts), +1.0);
-    if (right) fit_.side.low = right->value;
-    if (left) fit_.side.high = left->value;
-    fit_.side_sigma_m = std::hypot(right ? right->sigma : kUnmeasuredEnd_m, left ? left->sigma : kUnmeasuredEnd_m);
+    if (right) fit_.sides.low = right->value;
+    if (left) fit_.sides.high = left->value;
+    fit_.sides_sigma_m = std::hypot(right ? right->sigma : kUnmeasuredEnd_m, left ? left->sigma : kUnmeasuredEnd_m);
+    if (!(fit_.sides.length() > kNarrowest_m)) return false;
+    fit_.model = fit_.model.moved_aside(fit_.sides.middle());
+    prior_ = prior_.moved_aside(fit_.sides.middle());
+    const double half = 0.5 * fit_.sides.length();
+    fit_.sides = {-half, half};
+    return fit_.model.depth_m > 0.0 && fit_.model.height_m > 0.0;
   }
 
   const JointFitOptions& options_;
-  const StairModel graph_model_;
+  StairModel prior_;  // of the graph
+  const View view_;
   StairCorridor corridor_;
   JointFit fit_;
   std::vector<StepMeasurement> steps_;
@@ -272,9 +291,10 @@ std::string JointFitOptions::problem() const {
   return measurement.problem();
 }
 
-std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& side,
-                                    const JointFitOptions& options) {
-  return JointFitter(cloud, graph, side, options).run();
+std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& sides,
+                                    View view, const JointFitOptions& options) {
+  if (graph.parts.empty() || !(sides.length() > kNarrowest_m)) return std::nullopt;
+  return JointFitter(cloud, graph, sides, view, options).run();
 }
 
 std::string broken_rule(const JointFit& fit, const StepLimits& limits, const ConfirmationOptions& confirmation,

@@ -15,6 +15,7 @@ namespace stairway::detect {
 struct JointFitOptions {
   StepMeasurementOptions measurement;
   int passes = 6;            ///< of measuring all steps and fitting the model to them
+  int max_steps = 200;       ///< no stairway is longer; bounds the work
   int max_unseen_steps = 2;  ///< the stairway ends after this many steps in a row of which no point is found
 
   double max_sigma_m = 0.010;  ///< of step height and depth; what is less certain than this is no stairway to climb [m]
@@ -27,24 +28,25 @@ struct JointFitOptions {
 struct JointFit {
   StairModel model;
   FitSigmas sigmas;
-  Interval side;              ///< along left() of the model [m]
-  double side_sigma_m = 0.0;  ///< of its length
-  int first = 0;              ///< number of the lowest step of which points were found
-  int last = 0;               ///< and of the highest
-  int seen_steps = 0;         ///< how many of them have points
-  int measurements = 0;       ///< fronts, treads and undersides measured on them
+  Interval sides;              ///< along left() from the middle line of the model, which is its middle [m]
+  double sides_sigma_m = 0.0;  ///< of its length
+  int first = 0;               ///< number of the lowest step of which points were found
+  int last = 0;                ///< and of the highest
+  int seen_steps = 0;          ///< how many of them have points
+  int measurements = 0;        ///< fronts, treads and undersides measured on them
 };
 
-/// Fits one model to the points of a stairway: fronts fix d and s, treads and the edges of sight fix h.
+/// Fits one model to the points of a stairway: fronts fix d, s and delta phi, treads and the edges of sight fix h. A
+/// straight flight stays straight.
 ///
 /// Starts from a graph's model, measures every step, fits, and measures again, looking for further steps at both ends.
 /// The points are those of the cloud before thinning.
 ///
-/// @param side  what the graph's parts span along left() of its model [m].
-///
-/// @return the fit; nothing when fewer than two steps show points.
-std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& side,
-                                    const JointFitOptions& options = {});
+/// @param sides  what the graph's parts span along left() from the middle line of its model [m].
+/// @return the fit; nothing when fewer than two steps show points, or when the graph has no parts or no width.
+/// Cost: passes x steps x points of the stairway.
+std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& sides,
+                                    View view, const JointFitOptions& options = {});
 
 /// The rule a joint fit breaks, or an empty string when the points bear the stairway out.
 /// Rules: those of broken_rule() for graphs, "step-size-out-of-range", "steps-missing", "too-uncertain".

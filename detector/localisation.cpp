@@ -20,30 +20,43 @@ double standard_error(const std::vector<double>& values) {
 }
 
 Eigen::Vector3d mid_nosing(const FittedStairway& stairway, int number) {
-  const StepFrame step = stairway.model.step(number);
-  return step.nosing + step.left() * (stairway.side.middle() - step.nosing.dot(step.left()));
+  return stairway.model.step(number).from_step({.v = stairway.sides.middle()});
+}
+
+bool touches_step(const Eigen::Vector3d& nosing, const FittedStairway& stairway, int number) {
+  constexpr double kBeside_m = 0.3;
+  const StepPoint p = stairway.model.step(number).to_step(nosing);
+  return std::abs(p.u) <= 0.75 * stairway.model.depth_m && std::abs(p.z) < 1.5 * stairway.model.height_m &&
+         p.v > stairway.sides.low - kBeside_m && p.v < stairway.sides.high + kBeside_m;
 }
 
 bool lies_within(const FittedStairway& small, const FittedStairway& large) {
-  const StairModel& model = large.model;
   int inside = 0;
   for (int number = small.first; number <= small.last; ++number) {
     const Eigen::Vector3d nosing = mid_nosing(small, number);
-    const Eigen::Vector3d off = nosing - model.nosing;
-    const double steps_up = -off.dot(model.descent) / model.depth_m;
-    const double above_line = off.z() - steps_up * model.height_m;
-    const double side = nosing.dot(model.step(0).left());
-    if (steps_up > large.first - 1.5 && steps_up < large.last + 1.5 && std::abs(above_line) < 1.5 * model.height_m &&
-        side > large.side.low - 0.3 && side < large.side.high + 0.3)
-      ++inside;
+    bool touches = false;
+    for (int other = large.first - 1; other <= large.last + 1 && !touches; ++other)
+      touches = touches_step(nosing, large, other);
+    inside += touches ? 1 : 0;
   }
   return 2 * inside > small.last - small.first + 1;
 }
 
-// The number of the step whose riser stands on the ground, if the way down to it is short enough to be believed.
-int first_step_number(const StairModel& model, int first_seen, const LocalisationOptions& options) {
-  const int on_ground = static_cast<int>(std::lround((kGround_m - model.nosing.z()) / model.height_m)) + 1;
-  return first_seen - on_ground > options.max_hidden_steps ? first_seen : on_ground;
+// The number of the step at `height_m`, if the way to it is short enough to be believed; else the one that was seen.
+int step_at(double height_m, const StairModel& model, int seen, const LocalisationOptions& options) {
+  const int number = static_cast<int>(std::lround((height_m - model.nosing.z()) / model.height_m));
+  return std::abs(seen - number) > options.max_hidden_steps ? seen : number;
+}
+
+// From the first step on the ground up, or from the edge of the ground down (the paper's extension to ground level).
+FittedStairway grounded(FittedStairway stairway, const LocalisationOptions& options) {
+  const StairModel& model = stairway.model;
+  if (stairway.view == View::FromBelow) {
+    stairway.first = std::min(step_at(kGround_m + model.height_m, model, stairway.first, options), stairway.last);
+  } else {
+    stairway.last = std::max(step_at(kGround_m, model, stairway.last, options), stairway.first);
+  }
+  return stairway;
 }
 
 }  // namespace
@@ -54,18 +67,17 @@ std::string LocalisationOptions::problem() const {
 
 FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& parts) {
   const StairGraph& graph = winner.graph;
-  const Eigen::Vector3d left = graph.model.step(0).left();
   std::vector<double> rights;
   std::vector<double> lefts;
   for (const GraphPart& entry : graph.parts) {
-    const Interval extent = part_extent(parts[entry.part], left);
+    const Interval extent = sides_of(parts[entry.part], graph.model.step(entry.step));
     rights.push_back(extent.low);
     lefts.push_back(extent.high);
   }
   return {.model = graph.model,
           // Parts are cut short by what hides them and hardly ever too long.
-          .side = {outer_quartile(rights, false), outer_quartile(lefts, true)},
-          .side_sigma_m = std::hypot(standard_error(rights), standard_error(lefts)),
+          .sides = {outer_quartile(rights, false), outer_quartile(lefts, true)},
+          .sides_sigma_m = std::hypot(standard_error(rights), standard_error(lefts)),
           .sigmas = winner.sigmas,
           .first = graph.parts.front().step,
           .last = graph.parts.back().step,
@@ -87,27 +99,28 @@ std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stair
 }
 
 Stairway localise(const FittedStairway& fitted, const LocalisationOptions& options) {
-  const StairModel& model = fitted.model;
-  const Eigen::Vector3d left = model.step(0).left();
+  const FittedStairway placed = grounded(fitted, options);
+  const StairModel model = placed.model.moved_aside(placed.sides.middle());
+  const Eigen::Vector3d descent = model.step(placed.first).descent;
 
   Stairway stairway;
-  stairway.kind = StairwayKind::Straight;
-  stairway.direction = fitted.view == View::FromBelow ? StairwayDirection::Ascending : StairwayDirection::Descending;
+  stairway.kind = model.is_spiral() ? StairwayKind::Spiral : StairwayKind::Straight;
+  stairway.direction = placed.view == View::FromBelow ? StairwayDirection::Ascending : StairwayDirection::Descending;
   stairway.step_height = model.height_m;
   stairway.step_depth = model.depth_m;
-  stairway.width = fitted.side.length();
-  stairway.heading = std::atan2(-model.descent.y(), -model.descent.x());
-  stairway.step_height_sigma = fitted.sigmas.height_m;
-  stairway.step_depth_sigma = fitted.sigmas.depth_m;
-  stairway.heading_sigma = fitted.sigmas.heading_rad;
-  stairway.width_sigma = fitted.side_sigma_m;
-  stairway.score = fitted.score;
+  stairway.width = placed.sides.length();
+  stairway.heading = std::atan2(-descent.y(), -descent.x());
+  stairway.turn_per_step = model.turn_rad;
+  stairway.step_height_sigma = placed.sigmas.height_m;
+  stairway.step_depth_sigma = placed.sigmas.depth_m;
+  stairway.heading_sigma = placed.sigmas.heading_rad;
+  stairway.width_sigma = placed.sides_sigma_m;
+  stairway.score = placed.score;
 
-  const int first = std::min(first_step_number(model, fitted.first, options), fitted.last);
-  for (int number = first; number <= fitted.last; ++number) {
-    const Eigen::Vector3d nosing = model.step(number).nosing;
-    const Eigen::Vector3d on_axis = nosing - left * nosing.dot(left);
-    stairway.nosings.push_back({on_axis + left * fitted.side.high, on_axis + left * fitted.side.low});
+  const double half = 0.5 * placed.sides.length();
+  for (int number = placed.first; number <= placed.last; ++number) {
+    const StepFrame step = model.step(number);
+    stairway.nosings.push_back({step.from_step({.v = half}), step.from_step({.v = -half})});
   }
   const Nosing& meeting =
       stairway.direction == StairwayDirection::Ascending ? stairway.nosings.front() : stairway.nosings.back();

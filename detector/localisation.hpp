@@ -19,8 +19,8 @@ struct LocalisationOptions {
 /// A stairway found and fitted, before it is placed in the building.
 struct FittedStairway {
   StairModel model;
-  Interval side;              ///< along left() of the model [m]
-  double side_sigma_m = 0.0;  ///< of its length
+  Interval sides;              ///< along left(), from the middle line of the model [m]
+  double sides_sigma_m = 0.0;  ///< of its length
   FitSigmas sigmas;
   int first = 0;  ///< number of the lowest step seen
   int last = 0;   ///< and of the highest
@@ -38,7 +38,8 @@ std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stair
 
 /// Turns a fit into the stairway a robot can climb: first step on the ground, ends, anchor and every nosing.
 ///
-/// A stairway that seems to begin above the ground (z = 0) is continued down to it; steps at or below it are dropped.
+/// An ascending stairway that seems to begin above the ground (z = 0) is continued down to it; steps at or below it are
+/// dropped. A descending one is continued up to it: its last nosing is the edge of the floor the robot stands on.
 ///
 /// Method: Westfechtel et al. 2018, section "Localization Using a Dynamic Anchor".
 Stairway localise(const FittedStairway& fitted, const LocalisationOptions& options = {});

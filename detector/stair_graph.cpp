@@ -27,8 +27,7 @@ class Extension {
       if (taken_[i] || (part.centroid - step.nosing).head<2>().squaredNorm() > square(options_.search_radius_m) ||
           !complies(graph_.model, number, part, view_, options_))
         continue;
-      const Interval side = part_extent(part, step.left());
-      if (overlap(side, graph_.side) < options_.min_side_overlap_m) continue;
+      if (overlap(sides_of(part, step), graph_.sides) < options_.min_side_overlap_m) continue;
       taken_[i] = true;
       found = true;
       graph_.parts.push_back({number, i});
@@ -72,9 +71,9 @@ std::string ExtensionOptions::problem() const {
   return {};
 }
 
-StairGraph extend_graph(const StairModel& model, const Interval& side, const std::vector<StairPart>& parts, View view,
+StairGraph extend_graph(const StairModel& model, const Interval& sides, const std::vector<StairPart>& parts, View view,
                         const ExtensionOptions& options) {
-  StairGraph graph{.model = model, .parts = {}, .side = side};
+  StairGraph graph{.model = model, .parts = {}, .sides = sides};
   Extension extension(graph, parts, view, options);
   extension.visit(0);
   extension.go(+1);

@@ -24,7 +24,7 @@ struct GraphPart {
 struct StairGraph {
   StairModel model;
   std::vector<GraphPart> parts;  ///< by step; a part occurs once
-  Interval side;  ///< from the rightmost to the leftmost part end, along left(), through the frame's origin [m]
+  Interval sides;  ///< from the rightmost to the leftmost part end, along left() from the middle line of `model` [m]
 
   /// Number of steps that have at least one part.
   int seen_steps() const;
@@ -45,9 +45,9 @@ struct ExtensionOptions {
 /// Grows a graph step by step from step 0 of `model`, first up, then down (Alg. 4, lines 6 to 17).
 ///
 /// @param model  where to start; not refined on the way.
-/// @param side   what the starting parts span along left() of the model.
+/// @param sides  what the starting parts span along left(), from the middle line of the model [m].
 /// @return the graph; without parts when none complies.
-StairGraph extend_graph(const StairModel& model, const Interval& side, const std::vector<StairPart>& parts, View view,
+StairGraph extend_graph(const StairModel& model, const Interval& sides, const std::vector<StairPart>& parts, View view,
                         const ExtensionOptions& options = {});
 
 struct ConfirmationOptions {

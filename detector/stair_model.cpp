@@ -6,9 +6,30 @@
 
 namespace stairway::detect {
 
-StepFrame StairModel::step(int number) const {
-  const double j = number;
-  return {.nosing = nosing - j * depth_m * descent + j * height_m * Eigen::Vector3d::UnitZ(), .descent = descent};
+StepPoint StepFrame::to_step(const Eigen::Vector3d& p) const {
+  const Eigen::Vector3d off = p - nosing;
+  return {.u = -off.dot(descent), .v = off.dot(left()), .z = off.z()};
+}
+
+Eigen::Vector3d StepFrame::from_step(const StepPoint& p) const {
+  return nosing - p.u * descent + p.v * left() + p.z * Eigen::Vector3d::UnitZ();
+}
+
+StepFrame StairModel::step(double number) const {
+  const Eigen::Vector3d rise = number * height_m * Eigen::Vector3d::UnitZ();
+  if (!is_spiral()) return {.nosing = nosing - number * depth_m * descent + rise, .descent = descent};
+  const Eigen::AngleAxisd turn(number * turn_rad, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d to_axis = radius_m() * descent.cross(Eigen::Vector3d::UnitZ());
+  return {.nosing = nosing + to_axis - turn * to_axis + rise, .descent = turn * descent};
+}
+
+double StairModel::radius_m() const { return 0.5 * depth_m / std::sin(0.5 * turn_rad); }
+
+StairModel StairModel::moved_aside(double left_m) const {
+  StairModel moved = *this;
+  moved.nosing += left_m * step(0).left();
+  if (is_spiral()) moved.depth_m = 2.0 * (radius_m() - left_m) * std::sin(0.5 * turn_rad);
+  return moved;
 }
 
 std::string StepLimits::problem() const {

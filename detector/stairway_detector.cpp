@@ -40,8 +40,8 @@ Rejection nothing_to_start_from(std::size_t points, std::size_t regions, const s
 
 FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
   return {.model = fit.model,
-          .side = fit.side,
-          .side_sigma_m = fit.side_sigma_m,
+          .sides = fit.sides,
+          .sides_sigma_m = fit.sides_sigma_m,
           .sigmas = fit.sigmas,
           .first = fit.first,
           .last = fit.last,
@@ -57,8 +57,8 @@ std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const std::vec
   std::vector<FittedStairway> fitted;
   const CompetitionOptions& rules = options.competition;
   for (const Winner& winner : winners) {
-    const Interval side = from_parts(winner, parts).side;
-    const std::optional<JointFit> joint = fit_jointly(cloud, winner.graph, side, options.joint_fit);
+    const Interval sides = from_parts(winner, parts).sides;
+    const std::optional<JointFit> joint = fit_jointly(cloud, winner.graph, sides, winner.view, options.joint_fit);
     const std::string rule =
         joint ? broken_rule(*joint, rules.initialisation.limits, rules.confirmation, options.joint_fit)
               : std::string("no-points-on-steps");

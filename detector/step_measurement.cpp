@@ -5,49 +5,34 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
+#include <vector>
+
+#include "detector/sight_edge.hpp"
+#include "detector/statistics.hpp"
 
 namespace stairway::detect {
 namespace {
 
 constexpr double kStrip_m = 0.10;       // for coverage
 constexpr double kColumn_m = 0.05;      // for edges
+constexpr double kRow_m = 0.02;         // likewise, for the ends of the stairway
 constexpr double kEdgeReach_m = 0.09;   // an edge is looked for this far from its place
-constexpr double kEndReach_m = 0.4;     // likewise for the ends of the stairway
+constexpr double kEndReach_m = 0.4;     // likewise for the ends
+constexpr double kEndBand_m = 0.10;     // they are measured on this much of the front, below its top
 constexpr double kBarHeight_m = 0.05;   // the front of an open tread lies within this below its nosing
 constexpr double kMixedShare = 0.25;    // of the spot's radius, what mixed pixels may shift such a front by
 constexpr double kFrontReach_m = 0.07;  // a point is on a front within this distance
-constexpr double kFarthestBehind_m = 30.0;
-
-/// A point in the axes of the model.
-struct StairPoint {
-  double u;
-  double v;
-  double z;
-};
-
-struct StairAxes {
-  Eigen::Vector3d ascent;
-  Eigen::Vector3d left;
-  explicit StairAxes(const StairModel& model) : ascent(-model.descent), left(model.step(0).left()) {}
-  StairPoint operator()(const Eigen::Vector3d& p) const { return {p.dot(ascent), p.dot(left), p.z()}; }
-};
+constexpr double kThinnestTread_m = 0.015;
+constexpr double kThickestTread_m = 0.12;
+constexpr double kTreadMargin = 0.2;   // share of a tread at its front and back that is not measured
+constexpr double kClearance_m = 0.03;  // the sensor must lie this far before a front, or above a tread, to see it
 
 double square(double value) { return value * value; }
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Median and its standard error from the median absolute deviation, not below `floor`.
 Estimate robust_mean(const std::vector<double>& values, double floor) {
   const double middle = median(values);
-  std::vector<double> off;
-  off.reserve(values.size());
-  for (const double value : values) off.push_back(std::abs(value - middle));
-  const double scatter = 1.4826 * median(std::move(off));
+  const double scatter = robust_deviation(values, middle);
   return {middle, std::max(floor, 1.2533 * scatter / std::sqrt(static_cast<double>(values.size())))};
 }
 
@@ -62,67 +47,180 @@ double densest(const std::vector<double>& sorted, double reach) {
       best_begin = begin;
     }
   }
-  return median({sorted.begin() + static_cast<std::ptrdiff_t>(best_begin),
-                 sorted.begin() + static_cast<std::ptrdiff_t>(best_begin + best_count)});
+  const auto begin = sorted.begin() + static_cast<std::ptrdiff_t>(best_begin);
+  return median({begin, begin + static_cast<std::ptrdiff_t>(best_count)});
+}
+
+/// A place and the v at which it was found.
+struct EdgePlace {
+  double v = 0.0;
+  double place = 0.0;
+};
+
+/// Strips of crossings side by side, each of which shows the same edge.
+class EdgeStrips {
+ public:
+  EdgeStrips(const Interval& range, double strip_m)
+      : range_(range), strips_(static_cast<std::size_t>(std::max(1.0, range.length() / strip_m))) {}
+
+  void add(double position, const Crossing& crossing) {
+    const double strip = (position - range_.low) / range_.length() * static_cast<double>(strips_.size());
+    if (strip >= 0.0 && strip < static_cast<double>(strips_.size()))
+      strips_[static_cast<std::size_t>(strip)].push_back(crossing);
+  }
+
+  std::vector<std::vector<Crossing>>& strips() { return strips_; }
+
+  std::vector<EdgePlace> edges() {
+    std::vector<EdgePlace> found;
+    for (std::size_t i = 0; i < strips_.size(); ++i) {
+      const double middle =
+          range_.low + (static_cast<double>(i) + 0.5) / static_cast<double>(strips_.size()) * range_.length();
+      if (const std::optional<double> place = edge_between(strips_[i])) found.push_back({middle, *place});
+    }
+    return found;
+  }
+
+ private:
+  Interval range_;
+  std::vector<std::vector<Crossing>> strips_;
+};
+
+std::optional<Estimate> common_place(const std::vector<EdgePlace>& edges, double floor) {
+  constexpr std::size_t kFewest = 3;
+  if (edges.size() < kFewest) return std::nullopt;
+  std::vector<double> places;
+  for (const EdgePlace& edge : edges) places.push_back(edge.place);
+  return robust_mean(places, floor);
+}
+
+/// A straight line u = value + turn v and what is known of it.
+struct Line {
+  double value = 0.0;
+  double turn = 0.0;
+  double variance_v = 0.0;
+  double mean_v = 0.0;
+};
+
+/// Least squares; the line keeps its slope when the points have no width.
+template <typename Points>
+void fit_line(const Points& points, Line& line) {
+  double n = 0.0, sum_u = 0.0, sum_v = 0.0, sum_uv = 0.0, sum_vv = 0.0;
+  for (const auto& [u, v] : points) {
+    const double off = u - line.value;
+    n += 1.0;
+    sum_u += off;
+    sum_v += v;
+    sum_uv += off * v;
+    sum_vv += v * v;
+  }
+  if (n < 2.0) return;
+  line.mean_v = sum_v / n;
+  line.variance_v = sum_vv / n - square(line.mean_v);
+  if (line.variance_v > 0.0) line.turn = (sum_uv / n - sum_u / n * line.mean_v) / line.variance_v;
+  line.value += sum_u / n - line.turn * line.mean_v;
 }
 
 /// Measures one step from the points near it.
 class StepSurvey {
  public:
-  StepSurvey(const StairModel& model, const Interval& side, int number, const std::vector<StairPoint>& points,
-             const std::optional<StairPoint>& sensor, const StepMeasurementOptions& options)
-      : model_(model), side_(side), points_(points), sensor_(sensor), options_(options) {
-    const StairAxes axes(model);
-    const StairPoint nosing = axes(model.step(number).nosing);
-    front_u_ = nosing.u + model.overhang_m;
-    top_z_ = nosing.z;
-    reach_ = 2.5 * options.range_sigma_m;
+  StepSurvey(const StairCorridor& corridor, const StairModel& model, const Interval& sides, int number,
+             const StepMeasurementOptions& options)
+      : model_(model),
+        sides_(sides),
+        options_(options),
+        reach_(2.5 * options.range_sigma_m),
+        front_u_(model.overhang_m) {
     result_.number = number;
+    result_.middle_v = sides.middle();
+    result_.frame = model.step(number);
+    if (corridor.sensor()) sensor_ = result_.frame.to_step(*corridor.sensor());
+    const StepFrame next = model.step(number + 1);
+    next_ = result_.frame.to_step(next.nosing);
+    next_slope_ = next.left().dot(-result_.frame.descent) / next.left().dot(result_.frame.left());
+    pick(corridor.points());
   }
 
   StepMeasurement measure() {
-    measure_front();
-    if (!sensor_ || sensor_->z > top_z_)
-      measure_level(top_z_ - options_.search_m, top_z_ + options_.search_m, result_.surface);
-    if (!sensor_ || sensor_->z < top_z_) measure_level(top_z_ - 0.12, top_z_ - 0.015, result_.underside);
+    if (faces_front()) measure_front();
+    if (!sensor_ || sensor_->z > 0.0) measure_level(-options_.search_m, options_.search_m, result_.surface);
+    if (!sensor_ || sensor_->z < 0.0) measure_level(-kThickestTread_m, -kThinnestTread_m, result_.underside);
     if (result_.front) {
       measure_nosing();
       if (sensor_) {
-        result_.right_end = measure_end(side_.low);
-        result_.left_end = measure_end(side_.high);
+        result_.right_end = measure_end(sides_.low);
+        result_.left_end = measure_end(sides_.high);
       }
+    } else if (sees_edge_from_behind()) {
+      measure_edge();
     }
     return result_;
   }
 
  private:
-  // Where the ray through a point passes the plane of the front. Without a sensor the point itself.
-  StairPoint at_front(const StairPoint& p) const {
+  bool faces_front() const { return !sensor_ || sensor_->u < front_u_ - kClearance_m; }
+  bool sees_edge_from_behind() const {
+    return sensor_ && sensor_->u > kClearance_m && sensor_->z > kClearance_m && result_.surface;
+  }
+
+  // The next nosing, which on a spiral is turned against this one.
+  double depth_at(double v) const { return next_.u + (v - next_.v) * next_slope_; }
+
+  void pick(const std::vector<Eigen::Vector3d>& points) {
+    const double margin = 2.0 * options_.search_m;
+    const double low_v = sides_.low - kEndReach_m;
+    const double high_v = sides_.high + kEndReach_m;
+    const auto is_near = [&](double v, double z) {
+      return v > low_v && v < high_v && z > -model_.height_m - margin && z < margin;
+    };
+    for (const Eigen::Vector3d& point : points) {
+      const StepPoint p = result_.frame.to_step(point);
+      bool picked = is_near(p.v, p.z) && p.u > front_u_ - margin && p.u < depth_at(p.v);
+      if (!picked && sensor_ && faces_front() && p.u > sensor_->u + kClearance_m) {
+        const StepPoint q = at_front(p);
+        picked = is_near(q.v, q.z);
+      }
+      if (!picked && sensor_ && p.z < 0.0 && sensor_->z > kClearance_m) {
+        const StepPoint q = at_tread(p);
+        picked = std::abs(q.u) < margin && q.v > low_v && q.v < high_v;
+      }
+      if (picked) points_.push_back(p);
+    }
+  }
+
+  // Where the line of sight to a point passes the plane of the front. Without a sensor the point itself.
+  StepPoint at_front(const StepPoint& p) const {
     if (!sensor_) return p;
-    const double share = (front_u_ - sensor_->u) / (p.u - sensor_->u);
+    const double share = (front_u_ - sensor_->u) / std::max(p.u - sensor_->u, 1e-3);
     return {front_u_, sensor_->v + (p.v - sensor_->v) * share, sensor_->z + (p.z - sensor_->z) * share};
   }
 
-  // Half the width of the beam's spot at the front.
+  // Likewise the plane of the tread, for a sensor above it.
+  StepPoint at_tread(const StepPoint& p) const {
+    const double share = sensor_->z / std::max(sensor_->z - p.z, 1e-3);
+    return {sensor_->u + (p.u - sensor_->u) * share, sensor_->v + (p.v - sensor_->v) * share, 0.0};
+  }
+
+  // Half the width of the beam's spot at the nosing.
   double spot_radius() const {
     if (!sensor_) return 0.0;
-    const double range = std::hypot(front_u_ - sensor_->u, side_.middle() - sensor_->v, top_z_ - sensor_->z);
-    return 0.5 * options_.spot_rad * range;
+    return 0.5 * options_.spot_rad * std::hypot(front_u_ - sensor_->u, sides_.middle() - sensor_->v, sensor_->z);
   }
 
   // The lowest height of the front that the nosing below lets one see.
   double visible_bottom() const {
-    const double below = top_z_ - model_.height_m;
+    const double below = -model_.height_m;
     if (!sensor_ || sensor_->z >= below) return below;
     const double nosing_u = front_u_ - model_.depth_m;
-    return sensor_->z + (below - sensor_->z) * (front_u_ - sensor_->u) / (nosing_u - sensor_->u);
+    if (sensor_->u > nosing_u - kClearance_m) return below;
+    return std::min(sensor_->z + (below - sensor_->z) * (front_u_ - sensor_->u) / (nosing_u - sensor_->u), 0.0);
   }
 
-  bool covers(const std::vector<double>& sides) const {
-    const auto strips = static_cast<std::size_t>(std::max(1.0, std::floor(side_.length() / kStrip_m)));
+  bool covers(const std::vector<double>& places) const {
+    const auto strips = static_cast<std::size_t>(std::max(1.0, std::floor(sides_.length() / kStrip_m)));
     std::vector<bool> hit(strips, false);
-    for (const double v : sides) {
-      const auto strip = static_cast<std::ptrdiff_t>((v - side_.low) / side_.length() * static_cast<double>(strips));
+    for (const double v : places) {
+      const auto strip = static_cast<std::ptrdiff_t>((v - sides_.low) / sides_.length() * static_cast<double>(strips));
       if (strip >= 0 && strip < static_cast<std::ptrdiff_t>(strips)) hit[static_cast<std::size_t>(strip)] = true;
     }
     return static_cast<double>(std::count(hit.begin(), hit.end(), true)) >=
@@ -140,33 +238,29 @@ class StepSurvey {
     return std::all_of(rows.begin(), rows.end(), [&](std::size_t n) { return static_cast<double>(n) >= fair; });
   }
 
-  /// Points of a front and the straight line u = value + turn (v - middle) through them.
-  struct Front {
-    double value = 0.0;
-    double turn = 0.0;
-    double variance_v = 0.0;
-    std::vector<double> sides;
+  bool beside_middle(const StepPoint& p) const { return p.v >= sides_.low && p.v <= sides_.high; }
+
+  /// Points of a front and the straight line through them; v from the middle of the sides.
+  struct Front : Line {
+    std::vector<double> places;
     std::vector<double> heights;
     double count() const { return static_cast<double>(heights.size()); }
   };
 
-  bool in_zone(const StairPoint& p, const Interval& zone) const {
-    if (p.v < side_.low || p.v > side_.high) return false;
-    const double z = at_front(p).z;
-    return z >= zone.low && z <= zone.high;
-  }
-
   std::optional<Front> front_within(const Interval& zone) const {
-    std::vector<StairPoint> near;
+    std::vector<StepPoint> near;
     std::size_t behind = 0;
-    for (const StairPoint& p : points_) {
+    for (const StepPoint& p : points_) {
       const double depth = p.u - front_u_;
-      if (depth < -2.0 * options_.search_m || depth > model_.depth_m || !in_zone(p, zone)) continue;
-      if (std::abs(depth) < 2.0 * options_.search_m) near.push_back({p.u, p.v, at_front(p).z});
-      if (depth > options_.search_m && depth < model_.depth_m - options_.search_m) ++behind;
+      const double next = depth_at(p.v);
+      if (depth < -2.0 * options_.search_m || depth > next || !beside_middle(p)) continue;
+      const double z = at_front(p).z;
+      if (z < zone.low || z > zone.high) continue;
+      if (std::abs(depth) < 2.0 * options_.search_m) near.push_back({p.u, p.v, z});
+      if (depth > options_.search_m && depth < next - options_.search_m) ++behind;
     }
     std::vector<double> places;
-    for (const StairPoint& p : near)
+    for (const StepPoint& p : near)
       if (std::abs(p.u - front_u_) < options_.search_m) places.push_back(p.u);
     if (places.size() < static_cast<std::size_t>(options_.min_points)) return std::nullopt;
     std::sort(places.begin(), places.end());
@@ -178,207 +272,194 @@ class StepSurvey {
     if (front.heights.size() < static_cast<std::size_t>(options_.min_points)) return std::nullopt;
     const double free_depth = std::max(model_.depth_m - 2.0 * options_.search_m, 0.01);
     const double contrast = front.count() / (2.0 * reach_) / std::max(static_cast<double>(behind) / free_depth, 1e-9);
-    if (contrast < options_.min_contrast || !covers(front.sides)) return std::nullopt;
+    if (contrast < options_.min_contrast || !covers(front.places)) return std::nullopt;
     return front;
   }
 
-  // Fits the line to the points within reach of it.
-  void follow(const std::vector<StairPoint>& points, Front& front) const {
-    double sum_u = 0.0;
-    double sum_v = 0.0;
-    double sum_uv = 0.0;
-    double sum_vv = 0.0;
-    front.sides.clear();
+  void follow(const std::vector<StepPoint>& points, Front& front) const {
+    std::vector<std::pair<double, double>> line;
+    front.places.clear();
     front.heights.clear();
-    for (const StairPoint& p : points) {
-      const double v = p.v - side_.middle();
-      const double u = p.u - front.value;
-      if (std::abs(u - front.turn * v) > reach_) continue;
-      sum_u += u;
-      sum_v += v;
-      sum_uv += u * v;
-      sum_vv += v * v;
-      front.sides.push_back(p.v);
+    for (const StepPoint& p : points) {
+      const double v = p.v - sides_.middle();
+      if (std::abs(p.u - front.value - front.turn * v) > reach_) continue;
+      line.emplace_back(p.u, v);
+      front.places.push_back(p.v);
       front.heights.push_back(p.z);
     }
-    const double n = front.count();
-    if (n < 2.0) return;
-    front.variance_v = sum_vv / n - square(sum_v / n);
-    front.turn = front.variance_v > 0.0 ? (sum_uv / n - sum_u * sum_v / square(n)) / front.variance_v : 0.0;
-    front.value += sum_u / n - front.turn * sum_v / n;
+    fit_line(line, front);
   }
 
   // A riser is seen clean where the whole spot lies on it. Where none is filled with points, the front of an open tread
   // may be: a bar in which the spot hardly finds a clean place.
   void measure_front() {
     const double bottom = visible_bottom();
-    const double margin = std::min(spot_radius(), 0.25 * (top_z_ - bottom));
-    const Interval riser{bottom + margin, top_z_ - margin};
-    std::optional<Front> front = front_within(riser);
-    double sigma = options_.range_sigma_m;
+    const double margin = std::min(spot_radius(), -0.25 * bottom);
+    const Interval riser{bottom + margin, -margin};
+    std::optional<Front> front = riser.length() > 0.0 ? front_within(riser) : std::nullopt;
     double systematic = 0.0;
     if (!front || !fills(front->heights, riser)) {
-      const std::optional<Front> bar = front_within({top_z_ - kBarHeight_m, top_z_ + 0.5 * spot_radius()});
+      const std::optional<Front> bar = front_within({-kBarHeight_m, 0.5 * spot_radius()});
       if (bar) {
         front = bar;
         systematic = kMixedShare * spot_radius();
       }
     }
     if (!front) return;
-    sigma = std::hypot(sigma / std::sqrt(front->count()), systematic);
+    const double sigma = std::hypot(options_.range_sigma_m / std::sqrt(front->count()), systematic);
     result_.front = Estimate{front->value, sigma};
     if (front->variance_v > 0.0) result_.turn = Estimate{front->turn, sigma / std::sqrt(front->variance_v)};
   }
 
   void measure_level(double low, double high, std::optional<Estimate>& level) const {
     std::vector<double> heights;
-    std::vector<double> sides;
-    const double margin = 0.2 * model_.depth_m;
-    for (const StairPoint& p : points_) {
-      if (p.z < low || p.z > high || p.v < side_.low || p.v > side_.high || p.u < front_u_ + margin ||
-          p.u > front_u_ + model_.depth_m - margin)
+    std::vector<double> places;
+    for (const StepPoint& p : points_) {
+      const double margin = kTreadMargin * depth_at(p.v);
+      if (p.z < low || p.z > high || !beside_middle(p) || p.u < front_u_ + margin ||
+          p.u > front_u_ + depth_at(p.v) - margin)
         continue;
       heights.push_back(p.z);
-      sides.push_back(p.v);
+      places.push_back(p.v);
     }
-    if (heights.size() < static_cast<std::size_t>(options_.min_points) || !covers(sides)) return;
+    if (heights.size() < static_cast<std::size_t>(options_.min_points) || !covers(places)) return;
     std::vector<double> sorted = heights;
     std::sort(sorted.begin(), sorted.end());
     const double center = densest(sorted, reach_);
     std::vector<double> near;
-    sides.clear();
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-      if (std::abs(heights[i] - center) <= reach_) near.push_back(heights[i]);
-    }
+    for (const double height : heights)
+      if (std::abs(height - center) <= reach_) near.push_back(height);
     const double off = static_cast<double>(heights.size() - near.size());
-    if (static_cast<double>(near.size()) < options_.min_contrast * off * 2.0 * reach_ / (high - low - 2.0 * reach_))
+    const double fair = off * 2.0 * reach_ / std::max(high - low - 2.0 * reach_, 0.01);
+    if (static_cast<double>(near.size()) < options_.min_contrast * fair ||
+        near.size() < static_cast<std::size_t>(options_.min_points))
       return;
-    if (near.size() < static_cast<std::size_t>(options_.min_points)) return;
-    level = robust_mean(near, 1e-4);
+    constexpr double kFloor_m = 1e-4;
+    level = robust_mean(near, kFloor_m);
   }
 
-  // Splits values that should be "on" below and "off" above some place so that the fewest lie on the wrong side.
-  struct Crossing {
-    double place;
-    bool on;
-  };
-  static std::optional<double> best_split(std::vector<Crossing>& column) {
-    constexpr std::size_t kMinPerColumn = 4;
-    if (column.size() < kMinPerColumn) return std::nullopt;
-    std::sort(column.begin(), column.end(), [](const Crossing& a, const Crossing& b) { return a.place < b.place; });
-    int wrong = 0;
-    int ons = 0;
-    for (const Crossing& c : column) {
-      if (c.on)
-        ++ons;
-      else
-        ++wrong;
+  NosingSight sight_over(double u, double z, double sigma_m, bool over_a_front) const {
+    NosingSight sight{.at = {u, sides_.middle(), z}, .sigma_m = sigma_m, .over_a_front = over_a_front};
+    if (sensor_) {
+      const double length = std::hypot(u - sensor_->u, z - sensor_->z);
+      sight.along_u = (u - sensor_->u) / length;
+      sight.along_z = (z - sensor_->z) / length;
     }
-    if (ons == 0 || ons == static_cast<int>(column.size())) return std::nullopt;
-    // wrong = offs below the split + ons above it, starting with the split above everything.
-    int best = wrong;
-    std::size_t best_end = column.size();
-    for (std::size_t end = column.size(); end-- > 0;) {
-      wrong += column[end].on ? 1 : -1;
-      if (wrong < best) {
-        best = wrong;
-        best_end = end;
-      }
-    }
-    if (best_end == 0 || best_end == column.size() || best > static_cast<int>(column.size()) / 4) return std::nullopt;
-    return 0.5 * (column[best_end - 1].place + column[best_end].place);
-  }
-
-  std::optional<Estimate> across_columns(std::vector<std::vector<Crossing>>& columns, double sign) const {
-    std::vector<double> places;
-    for (std::vector<Crossing>& column : columns)
-      if (const std::optional<double> place = best_split(column)) places.push_back(sign * *place);
-    if (places.size() < 3) return std::nullopt;
-    return robust_mean(places, 3e-4);
+    return sight;
   }
 
   // The line of sight leaves the front where half the spot does: there the range is half way to what lies behind.
   void measure_nosing() {
-    result_.nosing_u = front_u_;
+    constexpr double kFloor_m = 3e-4;
     if (!sensor_) {
-      result_.nosing = top_of_front();
+      if (const std::optional<Estimate> top = top_of_front())
+        result_.nosing = sight_over(front_u_, top->value, top->sigma, true);
       return;
     }
-    const auto count = static_cast<std::size_t>(std::max(1.0, side_.length() / kColumn_m));
-    std::vector<std::vector<Crossing>> columns(count);
-    for (const StairPoint& p : points_) {
+    EdgeStrips strips(sides_, kColumn_m);
+    for (const StepPoint& p : points_) {
       if (p.u < front_u_ - options_.search_m) continue;
-      const StairPoint q = at_front(p);
-      if (std::abs(q.z - top_z_) > kEdgeReach_m) continue;
-      const double column = (q.v - side_.low) / side_.length() * static_cast<double>(count);
-      if (column < 0.0 || column >= static_cast<double>(count)) continue;
-      columns[static_cast<std::size_t>(column)].push_back({q.z, p.u < front_u_ + 0.5 * model_.depth_m});
+      const StepPoint q = at_front(p);
+      if (std::abs(q.z) <= kEdgeReach_m) strips.add(q.v, {q.z, p.u < front_u_ + 0.5 * depth_at(p.v)});
     }
-    result_.nosing = across_columns(columns, 1.0);
+    const std::optional<Estimate> top = common_place(strips.edges(), kFloor_m);
+    if (!top) return;
+    result_.nosing = sight_over(front_u_, top->value, top->sigma, true);
+    result_.nosing->sigma_m *= std::abs(result_.nosing->along_u);
   }
 
   // Without a line of sight the highest points of the front have to do.
   std::optional<Estimate> top_of_front() const {
-    const auto count = static_cast<std::size_t>(std::max(1.0, side_.length() / kColumn_m));
-    std::vector<double> tops(count, -1e9);
-    for (const StairPoint& p : points_) {
-      const double column = (p.v - side_.low) / side_.length() * static_cast<double>(count);
-      if (column < 0.0 || column >= static_cast<double>(count) || std::abs(p.u - result_.front->value) > reach_ ||
-          std::abs(p.z - top_z_) > options_.search_m)
-        continue;
-      double& top = tops[static_cast<std::size_t>(column)];
-      top = std::max(top, p.z);
+    constexpr double kFloor_m = 3e-3;
+    EdgeStrips strips(sides_, kColumn_m);
+    for (const StepPoint& p : points_)
+      if (std::abs(p.u - result_.front->value) <= reach_ && std::abs(p.z) <= options_.search_m)
+        strips.add(p.v, {p.z, true});
+    std::vector<EdgePlace> tops;
+    for (const std::vector<Crossing>& strip : strips.strips()) {
+      const auto top = std::max_element(strip.begin(), strip.end(),
+                                        [](const Crossing& a, const Crossing& b) { return a.place < b.place; });
+      if (top != strip.end()) tops.push_back({0.0, top->place});
     }
-    std::erase_if(tops, [](double top) { return top < -1e8; });
-    if (tops.size() < 3) return std::nullopt;
-    return robust_mean(tops, 3e-3);
+    return common_place(tops, kFloor_m);
+  }
+
+  // Seen from behind and above, the line of sight leaves the tread at its nosing, and ends on what lies below.
+  void measure_edge() {
+    constexpr double kFloor_m = 3e-4;
+    EdgeStrips strips(sides_, kColumn_m);
+    for (const StepPoint& p : points_) {
+      if (p.z > options_.search_m) continue;
+      const StepPoint q = at_tread(p);
+      if (std::abs(q.u) <= kEdgeReach_m) strips.add(q.v, {-q.u, p.z > -0.5 * model_.height_m});
+    }
+    const std::vector<EdgePlace> edges = strips.edges();
+    const std::optional<Estimate> place = common_place(edges, kFloor_m);
+    if (!place) return;
+    Line line{.value = -place->value};
+    std::vector<std::pair<double, double>> points;
+    for (const EdgePlace& edge : edges) points.emplace_back(-edge.place, edge.v - sides_.middle());
+    fit_line(points, line);
+    double chi2 = 0.0;
+    for (const auto& [u, v] : points) chi2 += square(u - line.value - line.turn * v);
+    const double n = static_cast<double>(points.size());
+    const double sigma = std::max(kFloor_m, std::sqrt(chi2 / std::max(1.0, n - 2.0) / n));
+    result_.nosing = sight_over(line.value, 0.0, sigma, false);
+    result_.nosing->sigma_m *= std::abs(result_.nosing->along_z);
+    if (line.variance_v > 0.0) result_.turn = Estimate{line.turn, sigma / std::sqrt(line.variance_v)};
   }
 
   // Like the nosing, but what stands in the way of the front (a post, a bystander) says nothing about its end.
   std::optional<Estimate> measure_end(double end) const {
-    const double outward = end > side_.middle() ? 1.0 : -1.0;
-    const double inside = std::min(kEndReach_m, 0.5 * side_.length());
-    const double low = std::max(visible_bottom(), top_z_ - 0.10);
-    const auto count = static_cast<std::size_t>(std::max(1.0, (top_z_ - low) / 0.02));
-    std::vector<std::vector<Crossing>> rows(count);
-    std::vector<std::vector<double>> hidden(count);
-    for (const StairPoint& p : points_) {
-      const StairPoint q = at_front(p);
+    const double outward = end > sides_.middle() ? 1.0 : -1.0;
+    const double inside = std::min(kEndReach_m, 0.5 * sides_.length());
+    const Interval band{std::max(visible_bottom(), -kEndBand_m), 0.0};
+    if (!(band.length() > 0.0)) return std::nullopt;
+    EdgeStrips rows(band, kRow_m);
+    EdgeStrips hidden(band, kRow_m);
+    for (const StepPoint& p : points_) {
+      const StepPoint q = at_front(p);
       const double beyond_end = outward * (q.v - end);
       if (beyond_end < -inside || beyond_end > kEndReach_m) continue;
-      const double row = (q.z - low) / (top_z_ - low) * static_cast<double>(count);
-      if (row < 0.0 || row >= static_cast<double>(count)) continue;
-      const auto index = static_cast<std::size_t>(row);
       const double depth = p.u - front_u_;
       if (depth < -kFrontReach_m) {
-        hidden[index].push_back(outward * q.v);
+        hidden.add(q.z, {outward * q.v, false});
       } else {
-        rows[index].push_back({outward * q.v, depth < kFrontReach_m});
+        rows.add(q.z, {outward * q.v, depth < kFrontReach_m});
       }
     }
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < rows.strips().size(); ++i) {
       // A wall at the end of the front hides nothing: it is where the front ends.
       double outermost = outward * end - kEndReach_m;
-      for (const Crossing& c : rows[i])
+      for (const Crossing& c : rows.strips()[i])
         if (c.on) outermost = std::max(outermost, c.place);
-      for (const double place : hidden[i])
-        if (place > outermost) rows[i].push_back({place, false});
+      for (const Crossing& c : hidden.strips()[i])
+        if (c.place > outermost) rows.strips()[i].push_back(c);
     }
-    return across_columns(rows, outward);
+    constexpr double kFloor_m = 3e-4;
+    std::optional<Estimate> place = common_place(rows.edges(), kFloor_m);
+    if (place) place->value *= outward;
+    return place;
   }
 
   const StairModel& model_;
-  const Interval& side_;
-  const std::vector<StairPoint>& points_;
-  const std::optional<StairPoint>& sensor_;
+  const Interval sides_;
   const StepMeasurementOptions& options_;
-  double front_u_ = 0.0;
-  double top_z_ = 0.0;
-  double reach_ = 0.0;
+  const double reach_;
+  const double front_u_;
+  std::optional<StepPoint> sensor_;
+  StepPoint next_;
+  double next_slope_ = 0.0;
+  std::vector<StepPoint> points_;
   StepMeasurement result_;
 };
 
 }  // namespace
+
+int StepMeasurement::count() const {
+  return static_cast<int>(front.has_value()) + static_cast<int>(surface.has_value()) +
+         static_cast<int>(underside.has_value());
+}
 
 std::string StepMeasurementOptions::problem() const {
   if (!(range_sigma_m > 0.0)) return "range_sigma_m must be greater than 0";
@@ -388,51 +469,9 @@ std::string StepMeasurementOptions::problem() const {
   return {};
 }
 
-StairCorridor::StairCorridor(const scan::PointCloud& cloud, const StairModel& model, const Interval& side) {
-  constexpr double kMargin_m = 0.5;
-  const StairAxes axes(model);
-  const StairPoint foot = axes(model.nosing);
-  const double slope = model.height_m / model.depth_m;
-  if (cloud.sensor_origin) sensor_ = cloud.sensor_origin->cast<double>();
-  const auto inside = [&](const StairPoint& p) {
-    const double over_slope = p.z - foot.z - (p.u - foot.u) * slope;
-    return p.v > side.low - kMargin_m && p.v < side.high + kMargin_m &&
-           std::abs(over_slope) < model.height_m + kMargin_m;
-  };
-  for (const Eigen::Vector3f& point : cloud.points) {
-    const Eigen::Vector3d p = point.cast<double>();
-    const StairPoint q = axes(p);
-    if (!(std::abs(q.u - foot.u) < kFarthestBehind_m)) continue;
-    if (inside(q)) {
-      points_.push_back(p);
-      continue;
-    }
-    if (!sensor_) continue;
-    // Also what is seen past an edge: points whose line of sight has come through the stairway's neighbourhood.
-    const StairPoint from = axes(*sensor_);
-    const double rise = (q.z - from.z) - (q.u - from.u) * slope;
-    const double start = from.z - foot.z - (from.u - foot.u) * slope;
-    if (std::abs(rise) < 1e-6) continue;
-    const double share = -start / rise;
-    if (share <= 0.0 || share >= 1.0) continue;
-    if (inside({from.u + share * (q.u - from.u), from.v + share * (q.v - from.v), from.z + share * (q.z - from.z)}))
-      points_.push_back(p);
-  }
-}
-
-std::vector<StepMeasurement> StairCorridor::measure(const StairModel& model, const Interval& side, int first, int last,
-                                                    const StepMeasurementOptions& options) const {
-  const StairAxes axes(model);
-  std::vector<StairPoint> points;
-  points.reserve(points_.size());
-  for (const Eigen::Vector3d& p : points_) points.push_back(axes(p));
-  std::optional<StairPoint> sensor;
-  if (sensor_) sensor = axes(*sensor_);
-
-  std::vector<StepMeasurement> steps;
-  for (int number = first; number <= last; ++number)
-    steps.push_back(StepSurvey(model, side, number, points, sensor, options).measure());
-  return steps;
+StepMeasurement measure_step(const StairCorridor& corridor, const StairModel& model, const Interval& sides, int number,
+                             const StepMeasurementOptions& options) {
+  return StepSurvey(corridor, model, sides, number, options).measure();
 }
 
 }  // namespace stairway::detect

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "detector/stair_corridor.hpp"
 #include "detector/stair_model.hpp"
-#include "scan_assembly/point_cloud.hpp"
 
 namespace stairway::detect {
 
@@ -18,20 +16,31 @@ struct Estimate {
   double sigma = 0.0;
 };
 
-/// What the points themselves, not the segmented planes, say about one step; in the axes of the model:
-/// u along the ascent (-s), v along left(), z up, all through the origin of the frame [m].
+/// A line of sight that just passes over a nosing, in the vertical plane along the ascent of its step: the nosing lies
+/// on it, wherever along it that is.
+struct NosingSight {
+  StepPoint at;              ///< a point of the line; its v is the middle of the sides [m]
+  double along_u = 1.0;      ///< the line's unit direction
+  double along_z = 0.0;      ///< likewise
+  double sigma_m = 0.0;      ///< across the line
+  bool over_a_front = true;  ///< seen from before the step, over the top of its front; else from behind, over its tread
+};
+
+/// What the points themselves, not the segmented planes, say about one step, in the axes of `frame`.
 struct StepMeasurement {
   int number = 0;
-  std::optional<Estimate> front;      ///< u of the riser, or of an open tread's front face, in the middle of the side
-  std::optional<Estimate> turn;       ///< slope du/dv of that front [rad]: how far s is turned from it
+  StepFrame frame;                    ///< where the model had the step when it was measured
+  double middle_v = 0.0;              ///< of the sides [m]
+  std::optional<Estimate> front;      ///< u of the riser, or of an open tread's front face, at `middle_v`
+  std::optional<Estimate> turn;       ///< slope du/dv of that front or of the tread's edge [rad]
   std::optional<Estimate> surface;    ///< z of the tread
   std::optional<Estimate> underside;  ///< z of the tread's underside
-  std::optional<Estimate> nosing;     ///< z at `nosing_u` of the line of sight that leaves the front at its top
-  double nosing_u = 0.0;
+  std::optional<NosingSight> nosing;
   std::optional<Estimate> right_end;  ///< v at which the line of sight leaves the front to the right
   std::optional<Estimate> left_end;   ///< likewise to the left
 
   bool seen() const { return front || surface || underside; }
+  int count() const;  ///< how many of fronts, surfaces and undersides there are
 };
 
 struct StepMeasurementOptions {
@@ -40,30 +49,19 @@ struct StepMeasurementOptions {
       13.3e-3;  ///< full angle of the sensor's beam [rad]: points nearer to an edge than half of it are mixed
   double search_m = 0.05;     ///< fronts and surfaces are looked for this far from where the model has them [m], > 0
   int min_points = 15;        ///< of a front or a surface
-  double min_coverage = 0.4;  ///< share of the side, in strips of 10 cm, that a front or surface must cover
+  double min_coverage = 0.4;  ///< share of the sides, in strips of 10 cm, that a front or surface must cover
   double min_contrast = 2.0;  ///< density of points on a front or surface against that of the space around it
 
   std::string problem() const;
 };
 
-/// The points of a stairway and of what is seen just past its edges, picked from a cloud once and measured repeatedly.
-class StairCorridor {
- public:
-  /// @param cloud  all points, not thinned: edges are found between neighbouring beams.
-  /// Cost: one pass over the cloud.
-  StairCorridor(const scan::PointCloud& cloud, const StairModel& model, const Interval& side);
-
-  /// Where the sensor stood, in the frame of the cloud.
-  const std::optional<Eigen::Vector3d>& sensor() const { return sensor_; }
-
-  /// Measures steps `first`..`last` of `model`, which may have moved a little since the corridor was cut.
-  /// @param side  of the stairway, along left() of the model.
-  std::vector<StepMeasurement> measure(const StairModel& model, const Interval& side, int first, int last,
-                                       const StepMeasurementOptions& options) const;
-
- private:
-  std::vector<Eigen::Vector3d> points_;
-  std::optional<Eigen::Vector3d> sensor_;
-};
+/// Measures step `number` of `model`, which may have moved a little since the corridor was cut.
+///
+/// A front is measured where the sensor stands before it, a tread where it stands above it, an underside where it
+/// stands below it; all three when nobody knows where it stood.
+/// @param sides  of the stairway, along left() from the middle line of the model [m]; their length must be positive.
+/// Cost: O(n) in the points of the corridor.
+StepMeasurement measure_step(const StairCorridor& corridor, const StairModel& model, const Interval& sides, int number,
+                             const StepMeasurementOptions& options);
 
 }  // namespace stairway::detect

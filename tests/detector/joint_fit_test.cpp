@@ -43,15 +43,24 @@ TEST(JointFit, comes_back_to_the_truth_from_a_graph_that_is_a_little_off) {
     graph.model.depth_m -= 0.004;
     graph.model.descent = Eigen::AngleAxisd(0.017, Eigen::Vector3d::UnitZ()) * graph.model.descent;
     graph.parts = {{2, 0}, {3, 1}, {4, 2}};
-    const double middle = graph.model.nosing.dot(graph.model.step(0).left());
-    const std::optional<JointFit> fit = fit_jointly(room.cloud, graph, {middle - 0.5, middle + 0.5});
+    const std::optional<JointFit> fit = fit_jointly(room.cloud, graph, {-0.5, 0.5}, View::FromBelow);
     ASSERT_TRUE(fit);
     EXPECT_NEAR(fit->model.height_m, room.truth.step_height, c.max_height_error_m);
     EXPECT_NEAR(fit->model.depth_m, room.truth.step_depth, c.max_depth_error_m);
     EXPECT_NEAR(std::atan2(-fit->model.descent.y(), -fit->model.descent.x()), room.truth.heading, 0.004);
     EXPECT_EQ(fit->last - fit->first + 1, 10) << "follows the flight to both ends";
-    EXPECT_NEAR(fit->side.length(), room.truth.width, 0.03);
+    EXPECT_NEAR(fit->sides.length(), room.truth.width, 0.03);
   }
+}
+
+TEST(JointFit, has_nothing_to_fit_to_a_graph_without_parts_or_width) {
+  const scan::PointCloud room = test::simulate_room(3, 2.0);
+  StairGraph graph;
+  graph.model.height_m = 0.17;
+  graph.model.depth_m = 0.29;
+  EXPECT_FALSE(fit_jointly(room, graph, {-0.5, 0.5}, View::FromBelow));
+  graph.parts = {{0, 0}, {1, 1}, {2, 2}};
+  EXPECT_FALSE(fit_jointly(room, graph, {0.5, 0.5}, View::FromBelow));
 }
 
 TEST(JointFit, finds_no_steps_where_there_are_none) {
@@ -62,7 +71,7 @@ TEST(JointFit, finds_no_steps_where_there_are_none) {
   graph.model.descent = -Eigen::Vector3d::UnitX();
   graph.model.nosing = {0.6, 0.0, 0.17};
   graph.parts = {{0, 0}, {1, 1}, {2, 2}};
-  const std::optional<JointFit> fit = fit_jointly(room, graph, {-0.5, 0.5});
+  const std::optional<JointFit> fit = fit_jointly(room, graph, {-0.5, 0.5}, View::FromBelow);
   if (fit) {
     EXPECT_NE(broken_rule(*fit, {}, {}, {}), "");
   }

@@ -10,7 +10,7 @@ namespace stairway::detect {
 namespace {
 
 FittedStairway fitted(int first, int last) {
-  return {.model = test::make_model(0.17, 0.29), .side = {-0.6, 0.6}, .first = first, .last = last};
+  return {.model = test::make_model(0.17, 0.29), .sides = {-0.6, 0.6}, .first = first, .last = last};
 }
 
 TEST(Localisation, places_the_anchor_at_the_top_front_of_the_first_step) {
@@ -48,7 +48,7 @@ TEST(Localisation, keeps_one_of_two_descriptions_of_the_same_stairway) {
   poor.score = 9.0;
   FittedStairway elsewhere = fitted(0, 4);
   elsewhere.model.nosing += Eigen::Vector3d(0, 3, 0);
-  elsewhere.side = {2.4, 3.6};
+  elsewhere.sides = {2.4, 3.6};
   elsewhere.evidence = 3;
   elsewhere.score = 7.0;
   const std::vector<FittedStairway> kept = without_duplicates({poor, good, elsewhere});
@@ -65,7 +65,7 @@ TEST(Localisation, reads_the_ends_off_the_outer_parts) {
   winner.graph.model = model;
   for (std::size_t i = 0; i < parts.size(); ++i) winner.graph.parts.push_back({static_cast<int>(i), i});
   const FittedStairway stairway = from_parts(winner, parts);
-  EXPECT_NEAR(stairway.side.length(), 1.2, 1e-9);
+  EXPECT_NEAR(stairway.sides.length(), 1.2, 1e-9);
   EXPECT_EQ(stairway.last, 7);
 }
 
