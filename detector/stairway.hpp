@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,11 @@ namespace stairway::detect {
 enum class StairwayKind { Straight, Spiral };
 enum class StairwayDirection { Ascending, Descending };  ///< seen from the floor the robot stands on (z = 0)
 enum class AnchorSide { Left, Middle, Right };           ///< seen while ascending
+
+/// The names that people and machines read everywhere: "straight", "ascending", "left" and so on.
+std::string_view to_string(StairwayKind kind);
+std::string_view to_string(StairwayDirection direction);
+std::string_view to_string(AnchorSide side);
 
 /// The top front edge of one tread, its ends named as seen while ascending; `base` frame [m].
 struct Nosing {

@@ -20,25 +20,13 @@ Json number(double value) { return rounded(value, 1e6); }
 
 Json point(const Eigen::Vector3d& p) { return Json::array({number(p.x()), number(p.y()), number(p.z())}); }
 
-const char* name(detect::AnchorSide side) {
-  switch (side) {
-    case detect::AnchorSide::Left:
-      return "left";
-    case detect::AnchorSide::Middle:
-      return "middle";
-    case detect::AnchorSide::Right:
-      break;
-  }
-  return "right";
-}
-
 Json to_json(const detect::Stairway& stairway) {
   Json nosings = Json::array();
   for (const detect::Nosing& nosing : stairway.nosings) {
     nosings.push_back(Json::array({point(nosing.left), point(nosing.right)}));
   }
-  return {{"kind", stairway.kind == detect::StairwayKind::Straight ? "straight" : "spiral"},
-          {"direction", stairway.direction == detect::StairwayDirection::Ascending ? "ascending" : "descending"},
+  return {{"kind", to_string(stairway.kind)},
+          {"direction", to_string(stairway.direction)},
           {"steps", stairway.nosings.size()},
           {"step_height", number(stairway.step_height)},
           {"step_depth", number(stairway.step_depth)},
@@ -51,7 +39,7 @@ Json to_json(const detect::Stairway& stairway) {
           {"width_sigma", number(stairway.width_sigma)},
           {"heading_sigma", number(stairway.heading_sigma)},
           {"anchor", point(stairway.anchor)},
-          {"anchor_side", name(stairway.anchor_side)},
+          {"anchor_side", to_string(stairway.anchor_side)},
           {"railing", {{"left", stairway.railing_left}, {"right", stairway.railing_right}}},
           {"nosings", std::move(nosings)},
           {"score", number(stairway.score)}};

@@ -22,18 +22,6 @@ std::string with_sigma(double value, double sigma) {
   return fmt::format("{:.1f} +-{:.1f}", tenths(value), tenths(sigma));
 }
 
-std::string_view name(detect::AnchorSide side) {
-  switch (side) {
-    case detect::AnchorSide::Left:
-      return "left";
-    case detect::AnchorSide::Middle:
-      return "middle";
-    case detect::AnchorSide::Right:
-      break;
-  }
-  return "right";
-}
-
 std::string_view railings(const detect::Stairway& stairway) {
   if (stairway.railing_left && stairway.railing_right) return "both";
   if (stairway.railing_left) return "left";
@@ -47,8 +35,8 @@ const Row kTitles{"kind",        "direction",     "steps",      "height [mm]",  
 
 Row row(const detect::Stairway& stairway) {
   const Eigen::Vector3d anchor_mm = 1e3 * stairway.anchor;
-  return {stairway.kind == detect::StairwayKind::Straight ? "straight" : "spiral",
-          stairway.direction == detect::StairwayDirection::Ascending ? "ascending" : "descending",
+  return {std::string(to_string(stairway.kind)),
+          std::string(to_string(stairway.direction)),
           std::to_string(stairway.nosings.size()),
           with_sigma(1e3 * stairway.step_height, 1e3 * stairway.step_height_sigma),
           with_sigma(1e3 * stairway.step_depth, 1e3 * stairway.step_depth_sigma),
@@ -57,7 +45,7 @@ Row row(const detect::Stairway& stairway) {
           with_sigma(degrees(stairway.heading), degrees(stairway.heading_sigma)),
           fmt::format("{:.1f}", tenths(degrees(stairway.turn_per_step))),
           fmt::format("{:.0f} {:.0f} {:.0f} {}", std::round(anchor_mm.x()) + 0.0, std::round(anchor_mm.y()) + 0.0,
-                      std::round(anchor_mm.z()) + 0.0, name(stairway.anchor_side)),
+                      std::round(anchor_mm.z()) + 0.0, to_string(stairway.anchor_side)),
           std::string(railings(stairway))};
 }
 

@@ -65,5 +65,8 @@ run_tests() {
   shift
   cd "$root"
   run_quietly "Testing ($preset)" "test-$preset" ctest --preset "$preset" --parallel "$(nproc)" "$@"
+  if grep -q 'No tests were found' "$logs/test-$preset.log"; then
+    fail "no test fits '$*'; 'ctest --preset $preset -N' lists them all"
+  fi
   grep -E '^[0-9]+% tests passed|^Total Test time|\(Skipped\)|Not Run' "$logs/test-$preset.log"
 }

@@ -36,10 +36,9 @@ std::string summary(const detect::Stairway& s) {
   std::string text = fmt::format(
       "{}, {}, {} steps   height {:.1f} ±{:.1f} mm   depth {:.1f} ±{:.1f} mm   width {:.0f} ±{:.0f} mm   "
       "pitch {:.1f}°   heading {:.1f}°",
-      s.kind == detect::StairwayKind::Straight ? "straight" : "spiral",
-      s.direction == detect::StairwayDirection::Ascending ? "ascending" : "descending", s.nosings.size(),
-      1e3 * s.step_height, 1e3 * s.step_height_sigma, 1e3 * s.step_depth, 1e3 * s.step_depth_sigma, 1e3 * s.width,
-      1e3 * s.width_sigma, degrees(s.pitch()), degrees(s.heading));
+      to_string(s.kind), to_string(s.direction), s.nosings.size(), 1e3 * s.step_height, 1e3 * s.step_height_sigma,
+      1e3 * s.step_depth, 1e3 * s.step_depth_sigma, 1e3 * s.width, 1e3 * s.width_sigma, degrees(s.pitch()),
+      degrees(s.heading));
   if (s.kind == detect::StairwayKind::Spiral) text += fmt::format("   turn {:.1f}° a step", degrees(s.turn_per_step));
   return text;
 }

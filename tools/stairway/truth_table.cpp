@@ -59,18 +59,6 @@ Figures difference(const Figures& found, const Figures& truth) {
           found.side};
 }
 
-const char* name(detect::AnchorSide side) {
-  switch (side) {
-    case detect::AnchorSide::Left:
-      return "left";
-    case detect::AnchorSide::Middle:
-      return "middle";
-    case detect::AnchorSide::Right:
-      break;
-  }
-  return "right";
-}
-
 constexpr const char* kTitles = "  {:<12}{:>6}{:>13}{:>12}{:>12}{:>15}{:>12}   {}\n";
 constexpr const char* kRow = "  {:<12}{:>6.0f}{:>13.1f}{:>12.1f}{:>12.1f}{:>15.2f}{:>12.2f}";
 constexpr const char* kSignedRow = "  {:<12}{:>+6.0f}{:>+13.1f}{:>+12.1f}{:>+12.1f}{:>+15.2f}{:>+12.2f}";
@@ -81,7 +69,7 @@ std::string cells(const char* format, const char* title, const Figures& f) {
 
 std::string row(const char* title, const Figures& f) {
   return cells(kRow, title, f) +
-         fmt::format("   {:.0f} {:.0f} {:.0f} {}\n", f.anchor.x(), f.anchor.y(), f.anchor.z(), name(f.side));
+         fmt::format("   {:.0f} {:.0f} {:.0f} {}\n", f.anchor.x(), f.anchor.y(), f.anchor.z(), to_string(f.side));
 }
 
 std::string difference_row(const Figures& found, const Figures& truth) {

@@ -17,10 +17,9 @@ std::string describe(const detect::Stairway& stairway) {
   return fmt::format(
       "{} {}, {} steps, height {:.1f} mm, depth {:.1f} mm, width {:.0f} mm, heading {:.1f} deg, anchor ({:.3f}, "
       "{:.3f}, {:.3f}) m",
-      stairway.direction == detect::StairwayDirection::Ascending ? "ascending" : "descending",
-      stairway.kind == detect::StairwayKind::Straight ? "straight" : "spiral", stairway.nosings.size(),
-      1e3 * stairway.step_height, 1e3 * stairway.step_depth, 1e3 * stairway.width,
-      stairway.heading * 180.0 / std::numbers::pi, stairway.anchor.x(), stairway.anchor.y(), stairway.anchor.z());
+      to_string(stairway.direction), to_string(stairway.kind), stairway.nosings.size(), 1e3 * stairway.step_height,
+      1e3 * stairway.step_depth, 1e3 * stairway.width, stairway.heading * 180.0 / std::numbers::pi, stairway.anchor.x(),
+      stairway.anchor.y(), stairway.anchor.z());
 }
 
 std::string describe(const ipc::Timings& timings) {
