@@ -10,6 +10,7 @@ namespace stairway::detect {
 namespace {
 
 constexpr float kFarthest_m = 1e4F;
+constexpr std::uint64_t kAboveAllKeys = ~std::uint64_t{0};
 
 struct KeyedPoint {
   std::uint64_t key;
@@ -54,12 +55,15 @@ CellGroups group_by_cell(std::span<const Eigen::Vector3f> points, double leaf_m)
   if ((low > high).any()) return groups;
 
   const double per_leaf = 1.0 / leaf_m;
-  const Eigen::Array3d first_cell = (low.cast<double>() * per_leaf).floor();
+  const Eigen::Array3d first_cell = (low.cast<double>() * per_leaf).floor() - kCellMargin;
   const auto cell_of = [&](float value, int axis) {
-    return static_cast<std::uint64_t>(std::floor(value * per_leaf) - first_cell[axis]);
+    // Not negative, so that cutting off does what std::floor would, without a call.
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(value * per_leaf - first_cell[axis]));
   };
-  const int y_shift = bits_for(cell_of(high.x(), 0));
-  const int z_shift = y_shift + bits_for(cell_of(high.y(), 1));
+  const int y_shift = bits_for(cell_of(high.x(), 0) + kCellMargin);
+  const int z_shift = y_shift + bits_for(cell_of(high.y(), 1) + kCellMargin);
+  groups.y_shift = y_shift;
+  groups.z_shift = z_shift;
   std::vector<KeyedPoint> keyed;
   keyed.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -71,12 +75,27 @@ CellGroups group_by_cell(std::span<const Eigen::Vector3f> points, double leaf_m)
   radix_sort(keyed, (cell_of(high.z(), 2) + 1) << z_shift);
 
   groups.order.reserve(keyed.size());
+  groups.keys.back() = keyed.front().key;
   for (std::size_t i = 0; i < keyed.size(); ++i) {
-    if (i > 0 && keyed[i].key != keyed[i - 1].key) groups.starts.push_back(static_cast<std::uint32_t>(i));
+    if (i > 0 && keyed[i].key != keyed[i - 1].key) {
+      groups.starts.push_back(static_cast<std::uint32_t>(i));
+      groups.keys.push_back(keyed[i].key);
+    }
     groups.order.push_back(keyed[i].index);
   }
   groups.starts.push_back(static_cast<std::uint32_t>(keyed.size()));
+  groups.keys.push_back(kAboveAllKeys);
   return groups;
+}
+
+CellRows::CellRows(const CellGroups& groups, int reach)
+    : groups_(&groups), length_(2 * static_cast<std::uint64_t>(reach)) {
+  for (int z = -reach; z <= reach; ++z) {
+    for (int y = -reach; y <= reach; ++y) {
+      const auto steps = [](int count, int shift) { return static_cast<std::uint64_t>(count) << shift; };
+      rows_.push_back({steps(z, groups.z_shift) + steps(y, groups.y_shift) + steps(-reach, 0), 0});
+    }
+  }
 }
 
 }  // namespace stairway::detect

@@ -40,11 +40,15 @@ double PrincipalAxes::surface_variation() const {
 }
 
 PrincipalAxes principal_axes(const PointMoments& moments) {
+  if (moments.count() < 3) return {.centroid = moments.mean()};
+  return principal_axes(moments.mean(), moments.covariance());
+}
+
+PrincipalAxes principal_axes(const Eigen::Vector3d& centroid, const Eigen::Matrix3d& covariance) {
   PrincipalAxes result;
-  result.centroid = moments.mean();
-  if (moments.count() < 3) return result;
+  result.centroid = centroid;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(moments.covariance());
+  solver.computeDirect(covariance);
   result.axes = solver.eigenvectors().rowwise().reverse();
   // Rounding can push the smallest eigenvalue below zero.
   result.variances = solver.eigenvalues().reverse().cwiseMax(0.0);

@@ -41,5 +41,7 @@ struct PrincipalAxes {
 
 /// Principal axes of at least three points; with fewer the axes are those of the frame.
 PrincipalAxes principal_axes(const PointMoments& moments);
+/// Principal axes of a set with this mean and these second central moments [m^2].
+PrincipalAxes principal_axes(const Eigen::Vector3d& centroid, const Eigen::Matrix3d& covariance);
 
 }  // namespace stairway::detect

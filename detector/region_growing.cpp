@@ -3,9 +3,12 @@
 #include "detector/region_growing.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <utility>
+
+#include "detector/neighbour_blocks.hpp"
 
 namespace stairway::detect {
 namespace {
@@ -13,15 +16,15 @@ namespace {
 constexpr std::uint8_t kFree = 0;
 constexpr std::uint8_t kListed = 1;  // waits in the comparison list of the region that grows now
 constexpr std::uint8_t kAssigned = 2;
+constexpr std::uint32_t kNobody = ~std::uint32_t{0};
 
 class RegionGrower {
  public:
-  RegionGrower(const scan::PointCloud& cloud, const SurfaceNormals& surface, const CloudIndex& index,
-               const RegionGrowingOptions& options)
+  RegionGrower(const scan::PointCloud& cloud, const SurfaceNormals& surface, const RegionGrowingOptions& options)
       : cloud_(cloud),
         surface_(surface),
-        index_(index),
-        options_(options),
+        blocks_(cloud.points, static_cast<std::size_t>(options.num_neighbours)),
+        listed_for_(blocks_.size(), kNobody),
         min_cosine_(static_cast<float>(std::cos(options.max_normal_angle_rad))),
         max_distance_(static_cast<float>(options.max_plane_distance_m)),
         state_(cloud.points.size(), kFree) {}
@@ -59,29 +62,41 @@ class RegionGrower {
     if (region_.size() > 1) normal_sum_ += normal.dot(normal_) < 0.0F ? Eigen::Vector3f(-normal) : normal;
     normal_ = normal_sum_.normalized();
 
-    index_.nearest(cloud_.points[point], static_cast<std::size_t>(options_.num_neighbours) + 1, neighbours_);
-    for (const std::uint32_t neighbour : neighbours_) {
-      if (state_[neighbour] != kFree) continue;
+    const std::uint32_t block = blocks_.block_of(point);
+    if (std::exchange(listed_for_[block], region_.front()) == region_.front()) return;
+    blocks_.for_each_point(block, [&](std::uint32_t neighbour) {
+      if (state_[neighbour] != kFree) return;
       state_[neighbour] = kListed;
       comparison_list_.push_back(neighbour);
-    }
+    });
   }
 
   const scan::PointCloud& cloud_;
   const SurfaceNormals& surface_;
-  const CloudIndex& index_;
-  const RegionGrowingOptions& options_;
+  const NeighbourBlocks blocks_;
+  std::vector<std::uint32_t> listed_for_;  // the seed of the region that listed the points of a block last
   const float min_cosine_;
   const float max_distance_;
 
   std::vector<std::uint8_t> state_;
   std::vector<std::uint32_t> region_;
   std::vector<std::uint32_t> comparison_list_;
-  std::vector<std::uint32_t> neighbours_;
   Eigen::Vector3f center_ = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal_sum_ = Eigen::Vector3f::UnitZ();
   Eigen::Vector3f normal_ = Eigen::Vector3f::UnitZ();
 };
+
+std::vector<std::uint32_t> flattest_first(const std::vector<float>& variations) {
+  // Floats that are not negative are ordered like their bits.
+  std::vector<std::uint64_t> keys(variations.size());
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    keys[i] = std::uint64_t{std::bit_cast<std::uint32_t>(variations[i])} << 32 | i;
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::uint32_t> order(keys.size());
+  std::transform(keys.begin(), keys.end(), order.begin(),
+                 [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
+  return order;
+}
 
 }  // namespace
 
@@ -95,15 +110,10 @@ std::string RegionGrowingOptions::problem() const {
 }
 
 std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceNormals& surface,
-                                      const CloudIndex& index, const RegionGrowingOptions& options) {
-  std::vector<std::uint32_t> seeds(cloud.points.size());
-  std::iota(seeds.begin(), seeds.end(), 0U);
-  std::stable_sort(seeds.begin(), seeds.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return surface.variations[a] < surface.variations[b]; });
-
-  RegionGrower grower(cloud, surface, index, options);
+                                      const RegionGrowingOptions& options) {
+  RegionGrower grower(cloud, surface, options);
   std::vector<PlaneRegion> regions;
-  for (const std::uint32_t seed : seeds) {
+  for (const std::uint32_t seed : flattest_first(surface.variations)) {
     if (!grower.is_free(seed)) continue;
     const std::vector<std::uint32_t>& points = grower.grow(seed);
     if (points.size() > static_cast<std::size_t>(options.min_points))

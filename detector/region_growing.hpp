@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "detector/cloud_index.hpp"
 #include "detector/normals.hpp"
 #include "detector/plane_region.hpp"
 
@@ -28,11 +27,11 @@ struct RegionGrowingOptions {
 ///
 /// @param cloud    finite points [m].
 /// @param surface  from estimate_normals(), in the order of `cloud`.
-/// @param index    neighbour index over the points of `cloud`.
 /// @return regions in the order of their seeds, each with the indices of its points; every point is in at most one.
-/// Cost: O(N k) after one neighbour query per assigned point.
+/// Cost: O(N k) after the neighbours of all points were found at once (NeighbourLists): every point is asked for once,
+/// so nothing is found in vain.
 /// Method: Westfechtel et al. 2018, Alg. 1, eq 1.
 std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceNormals& surface,
-                                      const CloudIndex& index, const RegionGrowingOptions& options = {});
+                                      const RegionGrowingOptions& options = {});
 
 }  // namespace stairway::detect

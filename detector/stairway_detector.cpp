@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "detector/cloud_index.hpp"
 #include "detector/voxel_grid.hpp"
 
 namespace stairway::detect {
@@ -93,8 +92,7 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
   begin_stage("normals");
   const SurfaceNormals surface = estimate_normals(thinned, options.normals);
   begin_stage("segmentation");
-  const CloudIndex index(thinned.points);
-  std::vector<PlaneRegion> regions = grow_regions(thinned, surface, index, options.region_growing);
+  std::vector<PlaneRegion> regions = grow_regions(thinned, surface, options.region_growing);
   begin_stage("plane_finder");
   regions = merge_fragments(thinned, std::move(regions), options.plane_finder, options.fragment_merging);
   const std::vector<StairPart> parts = find_parts(thinned, regions, options.plane_finder);

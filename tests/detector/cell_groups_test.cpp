@@ -52,6 +52,28 @@ TEST(CellGroups, leave_out_points_that_are_nowhere) {
   EXPECT_EQ(groups.size(), 2U);
 }
 
+TEST(CellRows, hold_the_cells_within_reach_and_no_others) {
+  const auto points = random_points(3000, 1.0F);
+  const CellGroups groups = group_by_cell(points, 0.1);
+  const auto place = [&](std::size_t cell) {
+    return (points[groups[cell].front()].cast<double>() / 0.1).array().floor().eval();
+  };
+  for (const int reach : {1, 3, kCellMargin}) {
+    SCOPED_TRACE(reach);
+    CellRows rows(groups, reach);
+    for (std::size_t cell = 0; cell < groups.size(); cell += 11) {
+      std::set<std::size_t> found;
+      rows.around(cell, [&](std::size_t first, std::size_t last) {
+        for (; first < last; ++first) EXPECT_TRUE(found.insert(first).second);
+      });
+      std::set<std::size_t> expected;
+      for (std::size_t other = 0; other < groups.size(); ++other)
+        if ((place(other) - place(cell)).abs().maxCoeff() <= reach) expected.insert(other);
+      EXPECT_EQ(found, expected);
+    }
+  }
+}
+
 TEST(CellGroups, of_nothing_are_none) {
   EXPECT_EQ(group_by_cell({}, 0.1).size(), 0U);
   const std::vector<Eigen::Vector3f> nowhere{Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN())};

@@ -13,8 +13,7 @@ namespace stairway::detect {
 namespace {
 
 std::vector<PlaneRegion> segment(const scan::PointCloud& cloud, const RegionGrowingOptions& options = {}) {
-  const CloudIndex index(cloud.points);
-  return grow_regions(cloud, estimate_normals(cloud), index, options);
+  return grow_regions(cloud, estimate_normals(cloud), options);
 }
 
 scan::PointCloud step_and_floor() {
