@@ -7,24 +7,59 @@ namespace {
 
 // A choice names every enumerator in order; the last one tells when there are more.
 static_assert(static_cast<int>(detect::Strategy::Joint) == 3);
+static_assert(static_cast<int>(detect::SegmentationMethod::VoxelSac) == 2);
 
 }  // namespace
 
 void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& detector) {
   Section(table, "detector").real("voxel", detector.voxel_m, kMillimetre, {1, 200}, "edge of the thinning cells");
 
+  detect::SegmentationOptions& segmentation = detector.segmentation;
+  Section(table, "detector.segmentation")
+      .choice("method", segmentation.method, {"region-growing", "split-and-merge", "voxel-sac"},
+              "how planar regions are found");
+
   Section(table, "detector.normals")
-      .real("radius", detector.normals.radius_m, kMillimetre, {5, 500}, "neighbours within it make a normal")
-      .whole("min_neighbours", detector.normals.min_neighbours, 3, 1000,
+      .real("radius", segmentation.normals.radius_m, kMillimetre, {5, 500}, "neighbours within it make a normal")
+      .whole("min_neighbours", segmentation.normals.min_neighbours, 3, 1000,
              "where the radius holds fewer points, the nearest this many are taken");
 
   Section(table, "detector.region_growing")
-      .whole("num_neighbours", detector.region_growing.num_neighbours, 3, 200, "neighbours a region may grow over")
-      .real("max_normal_angle", detector.region_growing.max_normal_angle_rad, kDegree, {1, 89},
+      .whole("num_neighbours", segmentation.region_growing.num_neighbours, 3, 200, "neighbours a region may grow over")
+      .real("max_normal_angle", segmentation.region_growing.max_normal_angle_rad, kDegree, {1, 89},
             "normal of a point against the region's")
-      .real("max_plane_distance", detector.region_growing.max_plane_distance_m, kMillimetre, {1, 500},
+      .real("max_plane_distance", segmentation.region_growing.max_plane_distance_m, kMillimetre, {1, 500},
             "point to the plane of the region; about three times the range noise")
-      .whole("min_points", detector.region_growing.min_points, 3, 1000000, "a region must have more points than this");
+      .whole("min_points", segmentation.region_growing.min_points, 3, 1000000,
+             "a region must have more points than this");
+
+  detect::SplitAndMergeOptions& split_and_merge = segmentation.split_and_merge;
+  Section(table, "detector.split_and_merge")
+      .real("max_leaf", split_and_merge.max_leaf_m, kMillimetre, {10, 10000}, "edge of the largest cells")
+      .real("min_leaf", split_and_merge.min_leaf_m, kMillimetre, {10, 1000}, "edge of the smallest cells")
+      .whole("min_leaf_points", split_and_merge.min_leaf_points, 3, 10000, "fewer points in a cell tell no plane")
+      .real("max_leaf_distance", split_and_merge.max_leaf_distance_m, kMillimetre, {1, 500},
+            "every point of a cell to the cell's plane; about four times the range noise")
+      .real("max_normal_angle", split_and_merge.max_normal_angle_rad, kDegree, {1, 89},
+            "normal of a cell against the region's")
+      .real("max_plane_distance", split_and_merge.max_plane_distance_m, kMillimetre, {1, 500},
+            "middle of a cell to the plane of the region")
+      .whole("min_points", split_and_merge.min_points, 3, 1000000, "a region must have more points than this");
+
+  detect::VoxelSacOptions& voxel_sac = segmentation.voxel_sac;
+  Section(table, "detector.voxel_sac")
+      .real("max_leaf", voxel_sac.max_leaf_m, kMillimetre, {10, 10000}, "edge of the largest cells")
+      .real("min_leaf", voxel_sac.min_leaf_m, kMillimetre, {10, 1000}, "edge of the smallest cells")
+      .whole("iterations", voxel_sac.iterations, 1, 100000, "planes through three points that are tried in a cell")
+      .real("min_inlier_share", voxel_sac.min_inlier_share, kPlain, {0.01, 1},
+            "of the points of a cell that must lie in its plane")
+      .real("max_plane_distance", voxel_sac.max_plane_distance_m, kMillimetre, {1, 500},
+            "point to the plane; about three times the range noise")
+      .real("max_normal_angle", voxel_sac.max_normal_angle_rad, kDegree, {1, 89},
+            "normal of a point against the plane's")
+      .whole("min_cell_points", voxel_sac.min_cell_points, 1, 1000,
+             "a region spreads on from a cell that gave it so many points")
+      .whole("min_points", voxel_sac.min_points, 3, 1000000, "a region must have more points than this");
 
   Section(table, "detector.plane_finder")
       .real("max_tilt", detector.plane_finder.max_tilt_rad, kDegree, {1, 45},

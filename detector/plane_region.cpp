@@ -15,4 +15,10 @@ PlaneRegion make_region(std::span<const Eigen::Vector3f> cloud, std::vector<std:
   return region;
 }
 
+PlaneRegion make_region(const scan::PointCloud& cloud, std::vector<std::uint32_t> points) {
+  const Eigen::Vector3f one = cloud.points[points.front()];
+  const Eigen::Vector3f facing = cloud.sensor_origin.value_or(one) - one;
+  return make_region(cloud.points, std::move(points), facing.cast<double>());
+}
+
 }  // namespace stairway::detect

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "detector/plane.hpp"
+#include "scan_assembly/point_cloud.hpp"
 
 namespace stairway::detect {
 
@@ -20,5 +21,7 @@ struct PlaneRegion {
 /// @param facing  the normal is turned to the side of this direction.
 PlaneRegion make_region(std::span<const Eigen::Vector3f> cloud, std::vector<std::uint32_t> points,
                         const Eigen::Vector3d& facing);
+/// The same, with the normal turned to the cloud's sensor where its place is known.
+PlaneRegion make_region(const scan::PointCloud& cloud, std::vector<std::uint32_t> points);
 
 }  // namespace stairway::detect

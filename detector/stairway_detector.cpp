@@ -75,9 +75,8 @@ std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const std::vec
 
 std::string DetectorOptions::problem() const {
   if (!(voxel_m > 0.0)) return "voxel_m must be greater than 0";
-  for (const std::string& problem :
-       {normals.problem(), region_growing.problem(), plane_finder.problem(), fragment_merging.problem(),
-        competition.problem(), joint_fit.problem(), localisation.problem()})
+  for (const std::string& problem : {segmentation.problem(), plane_finder.problem(), fragment_merging.problem(),
+                                     competition.problem(), joint_fit.problem(), localisation.problem()})
     if (!problem.empty()) return problem;
   return {};
 }
@@ -89,10 +88,7 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
   };
   begin_stage("voxel_grid");
   const scan::PointCloud thinned = voxel_centroids(cloud, options.voxel_m);
-  begin_stage("normals");
-  const SurfaceNormals surface = estimate_normals(thinned, options.normals);
-  begin_stage("segmentation");
-  std::vector<PlaneRegion> regions = grow_regions(thinned, surface, options.region_growing);
+  std::vector<PlaneRegion> regions = segment(thinned, options.segmentation, on_stage);
   begin_stage("plane_finder");
   regions = merge_fragments(thinned, std::move(regions), options.plane_finder, options.fragment_merging);
   const std::vector<StairPart> parts = find_parts(thinned, regions, options.plane_finder);

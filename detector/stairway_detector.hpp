@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <string>
-#include <string_view>
 
 #include "detector/competition.hpp"
 #include "detector/fragment_merging.hpp"
 #include "detector/joint_fit.hpp"
 #include "detector/localisation.hpp"
-#include "detector/normals.hpp"
 #include "detector/plane_finder.hpp"
-#include "detector/region_growing.hpp"
+#include "detector/segmentation.hpp"
+#include "detector/stage_listener.hpp"
 #include "detector/stairway.hpp"
 #include "scan_assembly/point_cloud.hpp"
 
@@ -20,8 +18,7 @@ namespace stairway::detect {
 
 struct DetectorOptions {
   double voxel_m = 0.01;  ///< edge of the thinning cells [m], > 0; the paper's 1 cm
-  NormalOptions normals;
-  RegionGrowingOptions region_growing;
+  SegmentationOptions segmentation;
   PlaneFinderOptions plane_finder;
   FragmentMergingOptions fragment_merging;
   CompetitionOptions competition;
@@ -31,9 +28,6 @@ struct DetectorOptions {
   /// First problem found, worded for the person who set it; empty when usable.
   std::string problem() const;
 };
-
-/// Called when a stage of the detector begins; whoever has a clock can time the stages with it.
-using StageListener = std::function<void(std::string_view stage)>;
 
 /// Finds the stairways in a cloud (the paper's Fig 4, from the input cloud to the localized stairway).
 ///

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "detector/normals.hpp"
+#include "detector/plane_region.hpp"
+#include "detector/region_growing.hpp"
+#include "detector/split_and_merge.hpp"
+#include "detector/stage_listener.hpp"
+#include "detector/voxel_sac.hpp"
+#include "scan_assembly/point_cloud.hpp"
+
+namespace stairway::detect {
+
+/// The three ways of the paper to find planar regions.
+enum class SegmentationMethod {
+  RegionGrowing,  ///< Alg. 1; the most accurate one, which the paper chose for the detection
+  SplitAndMerge,  ///< Alg. 2; the fastest one, as it needs no normals
+  VoxelSac,       ///< Alg. 3
+};
+
+struct SegmentationOptions {
+  SegmentationMethod method = SegmentationMethod::RegionGrowing;
+  NormalOptions normals;  ///< for region growing and VoxelSAC
+  RegionGrowingOptions region_growing;
+  SplitAndMergeOptions split_and_merge;
+  VoxelSacOptions voxel_sac;
+
+  /// First problem found, worded for the person who set it; empty when usable.
+  std::string problem() const;
+};
+
+/// Splits a thinned cloud into planar regions.
+///
+/// @param thinned   finite points of any frame, about one per cm^3 [m].
+/// @param on_stage  hears "normals", where the method needs them, and "segmentation".
+/// @return regions with the indices of their points, every point in at most one; their normals face the sensor where
+/// its place is known.
+std::vector<PlaneRegion> segment(const scan::PointCloud& thinned, const SegmentationOptions& options = {},
+                                 const StageListener& on_stage = {});
+
+}  // namespace stairway::detect

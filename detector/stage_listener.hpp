@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+namespace stairway::detect {
+
+/// Called when a stage of the detector begins; whoever has a clock can time the stages with it.
+using StageListener = std::function<void(std::string_view stage)>;
+
+}  // namespace stairway::detect
