@@ -32,6 +32,8 @@ constexpr std::array<KindEntry, kFurnitureKinds> kKinds{{
     {FurnitureKind::Ramp, "ramp", {2.5, 1.2, 0.5}},
     {FurnitureKind::Bleachers, "bleachers", {3.2, 3.0, 1.6}},
     {FurnitureKind::Platform, "platform", {0.9, 1.5, 0.36}},
+    {FurnitureKind::Kerb, "kerb", {1.2, 3.0, 0.12}},
+    {FurnitureKind::ChairRows, "chair-rows", {2.7, 2.0, 0.85}},
 }};
 
 const KindEntry& entry(FurnitureKind kind) {
@@ -64,6 +66,26 @@ void add_chair(Mesh& mesh, const Vector3d& size) {
   const double seat = 0.53 * size.z();
   add_table(mesh, {size.x(), size.y(), seat});
   add_block(mesh, {-size.x() / 2, -size.y() / 2, seat}, {-size.x() / 2 + 0.03, size.y() / 2, size.z()});
+}
+
+// Where the middle of thing `i` of `count` lies that fill a length from end to end.
+double spread(int i, int count, double length_m, double thing_m) {
+  return count < 2 ? 0.0 : (length_m - thing_m) * (static_cast<double>(i) / (count - 1) - 0.5);
+}
+
+void add_chair_rows(Mesh& mesh, const Vector3d& size) {
+  constexpr double kRow_m = 0.85;
+  constexpr double kSeat_m = 0.45;
+  const int rows = std::max(1, static_cast<int>(size.x() / kRow_m));
+  const int seats = std::max(1, static_cast<int>(size.y() / (kSeat_m + 0.05)));
+  for (int row = 0; row < rows; ++row) {
+    for (int seat = 0; seat < seats; ++seat) {
+      Mesh chair;
+      add_chair(chair, {kSeat_m, kSeat_m, size.z()});
+      mesh.append(chair, Eigen::Isometry3d{Eigen::Translation3d{spread(row, rows, size.x(), kSeat_m),
+                                                                spread(seat, seats, size.y(), kSeat_m), 0.0}});
+    }
+  }
 }
 
 void add_shelf(Mesh& mesh, const Vector3d& size) {
@@ -153,6 +175,7 @@ Mesh build_furniture(const Furniture& piece) {
     case FurnitureKind::Box:
     case FurnitureKind::Wall:
     case FurnitureKind::DoorStep:
+    case FurnitureKind::Kerb:
       mesh.add_box(Vector2d::Zero(), 0.0, size, 0.0);
       break;
     case FurnitureKind::Column:
@@ -187,6 +210,9 @@ Mesh build_furniture(const Furniture& piece) {
       break;
     case FurnitureKind::Platform:
       add_equal_steps(mesh, size, 2);
+      break;
+    case FurnitureKind::ChairRows:
+      add_chair_rows(mesh, size);
       break;
   }
   mesh.share_coplanar_surfaces();

@@ -28,8 +28,10 @@ enum class FurnitureKind {
   Ramp,       ///< rises along x over its whole length
   Bleachers,  ///< four high and deep steps that rise along x
   Platform,   ///< two steps and no more, rising along x
+  Kerb,       ///< a raised pavement with one step along its whole side
+  ChairRows,  ///< chairs one behind the other and side by side, all looking along x
 };
-inline constexpr std::size_t kFurnitureKinds = 14;
+inline constexpr std::size_t kFurnitureKinds = 16;
 
 /// The name in scene files, e.g. "door-frame".
 std::string_view to_string(FurnitureKind kind);

@@ -6,30 +6,20 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
-#include "tools/sim/random.hpp"
+#include "tools/sim/random_layout.hpp"
 
 namespace stairway::sim {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint64_t kStairStream = 1;
 constexpr std::uint64_t kRoomStream = 2;
-constexpr double kRobotSpace_m = 0.9;  // side of the square that clutter leaves to the robot
-
-Outline robot_space() { return rectangle(Vector2d::Zero(), Vector2d::Constant(kRobotSpace_m), 0.0); }
-
-// A turn that is a multiple of a right angle half of the time, as most things in rooms are.
-double random_yaw(Random& random) {
-  return random.chance(0.5) ? random.integer(0, 3) * kPi / 2 : random.uniform(-kPi, kPi);
-}
 
 StairSpec random_flight(Random& random) {
   StairSpec spec;
@@ -55,105 +45,60 @@ StairSpec random_flight(Random& random) {
   return spec;
 }
 
-Room room_around(const Outline& outline, Random& random) {
-  Room room;
-  room.low = room.high = Vector2d::Zero();
-  for (const auto& p : outline) {
-    room.low = room.low.cwiseMin(p);
-    room.high = room.high.cwiseMax(p);
-  }
-  for (Eigen::Index axis = 0; axis < 2; ++axis) {
-    room.low[axis] -= random.uniform(0.6, 3.0);
-    room.high[axis] += random.uniform(0.6, 3.0);
-  }
-  room.height_m = random.uniform(2.5, 3.4);
-  return room;
-}
+struct Kind {
+  std::string_view name;
+  SceneSpec (*make)(std::uint64_t seed);
+};
 
-Furniture random_piece(FurnitureKind kind, const Room& room, Random& random) {
-  Furniture piece;
-  piece.kind = kind;
-  piece.size = usual_size(kind);
-  for (Eigen::Index axis = 0; axis < 3; ++axis) piece.size[axis] *= random.uniform(0.9, 1.3);
-  if (kind == FurnitureKind::Column) piece.size = {piece.size.x(), piece.size.x(), room.height_m};
-  piece.size.z() = std::min(piece.size.z(), room.height_m);
-  piece.yaw_rad = random_yaw(random);
-  piece.position = {random.uniform(room.low.x(), room.high.x()), random.uniform(room.low.y(), room.high.y())};
-  return piece;
-}
-
-bool fits(const Furniture& piece, const Room& room, const std::vector<Outline>& taken) {
-  const Outline footprint = piece.footprint();
-  for (const auto& p : footprint) {
-    if ((p.array() < room.low.array()).any() || (p.array() > room.high.array()).any()) return false;
-  }
-  return std::none_of(taken.begin(), taken.end(), [&](const Outline& other) { return overlap(footprint, other); });
-}
-
-// Tries some places, for a room may be full.
-std::optional<Furniture> find_place(FurnitureKind kind, const Room& room, const std::vector<Outline>& taken,
-                                    Random& random) {
-  for (int attempt = 0; attempt < 20; ++attempt) {
-    Furniture piece = random_piece(kind, room, random);
-    if (fits(piece, room, taken)) return piece;
-  }
-  return std::nullopt;
-}
-
-// Boxes on a box. Each is higher than any step and stands back by less than a foot, so that nobody would call it
-// stairs.
-void stack_boxes(const Furniture& base, Random& random, std::vector<Furniture>& furniture) {
-  Furniture box = base;
-  for (int i = random.integer(0, 2); i > 0; --i) {
-    box.level_m += box.size.z();
-    box.size.head<2>() *= random.uniform(0.8, 1.0);
-    box.size.z() = random.uniform(0.3, 0.5);
-    furniture.push_back(box);
-  }
-}
-
-void furnish(SceneSpec& spec, std::span<const FurnitureKind> kinds, int pieces, std::vector<Outline> taken,
-             Random& random) {
-  for (int i = 0; i < pieces; ++i) {
-    const FurnitureKind kind = kinds[static_cast<std::size_t>(random.integer(0, static_cast<int>(kinds.size()) - 1))];
-    const auto piece = find_place(kind, spec.room, taken, random);
-    if (!piece) continue;
-    spec.furniture.push_back(*piece);
-    taken.push_back(piece->footprint());
-    if (kind == FurnitureKind::Box) stack_boxes(*piece, random, spec.furniture);
-  }
-}
+constexpr std::array kKinds{Kind{"random-stairs", random_stair_scene}, Kind{"random-spiral", random_spiral_scene},
+                            Kind{"random-descending", random_descending_scene},
+                            Kind{"random-mid-landing", random_mid_landing_scene}, Kind{"random-room", random_room}};
 
 }  // namespace
 
 SceneSpec random_stair_scene(std::uint64_t seed) {
-  static constexpr std::array kClutter{FurnitureKind::Box,   FurnitureKind::Column, FurnitureKind::Table,
-                                       FurnitureKind::Chair, FurnitureKind::Shelf,  FurnitureKind::Pallet,
-                                       FurnitureKind::Bench, FurnitureKind::Wall,   FurnitureKind::Radiator};
   Random random{seed, kStairStream};
   SceneSpec spec;
   spec.name = fmt::format("random-stairs:{}", seed);
   spec.stairs = {random_flight(random)};
   const Outline footprint = build_flight(spec.stairs.front()).footprint;
   spec.room = room_around(footprint, random);
-  std::vector<Vector2d> view = robot_space();
-  view.insert(view.end(), footprint.begin(), footprint.end());
-  furnish(spec, kClutter, random.integer(3, 12), {grown(convex_hull(view), 0.05)}, random);
+  spec.furniture = furnish_around(spec.room, {footprint}, random);
   return spec;
 }
 
 SceneSpec random_room(std::uint64_t seed) {
-  static constexpr std::array kThings{
-      FurnitureKind::Box,      FurnitureKind::Box,       FurnitureKind::Column,    FurnitureKind::Table,
-      FurnitureKind::Chair,    FurnitureKind::Shelf,     FurnitureKind::Shelf,     FurnitureKind::Pallet,
-      FurnitureKind::Bench,    FurnitureKind::Wall,      FurnitureKind::Radiator,  FurnitureKind::Ramp,
-      FurnitureKind::DoorStep, FurnitureKind::DoorFrame, FurnitureKind::Bleachers, FurnitureKind::Platform};
+  static constexpr std::array kThings{FurnitureKind::Box,      FurnitureKind::Box,       FurnitureKind::Column,
+                                      FurnitureKind::Table,    FurnitureKind::Chair,     FurnitureKind::Shelf,
+                                      FurnitureKind::Shelf,    FurnitureKind::Pallet,    FurnitureKind::Bench,
+                                      FurnitureKind::Wall,     FurnitureKind::Radiator,  FurnitureKind::Ramp,
+                                      FurnitureKind::DoorStep, FurnitureKind::DoorFrame, FurnitureKind::Bleachers,
+                                      FurnitureKind::Platform, FurnitureKind::Kerb,      FurnitureKind::ChairRows};
   Random random{seed, kRoomStream};
   SceneSpec spec;
   spec.name = fmt::format("random-room:{}", seed);
   spec.room = room_around({Vector2d{-1.5, -1.5}, Vector2d{1.5, 1.5}}, random);
-  furnish(spec, kThings, random.integer(8, 24), {robot_space()}, random);
+  spec.furniture = furnish(spec.room, kThings, random.integer(8, 24), {robot_space()}, random);
   return spec;
+}
+
+std::optional<SceneSpec> random_scene(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  std::uint64_t seed = 0;
+  const char* const end = name.data() + name.size();
+  const auto [read_to, error] = std::from_chars(name.data() + colon + 1, end, seed);
+  if (error != std::errc{} || read_to != end) return std::nullopt;
+  const auto kind = std::find_if(kKinds.begin(), kKinds.end(),
+                                 [prefix = name.substr(0, colon)](const Kind& k) { return k.name == prefix; });
+  if (kind == kKinds.end()) return std::nullopt;
+  return kind->make(seed);
+}
+
+std::vector<std::string_view> random_scene_kinds() {
+  std::vector<std::string_view> names;
+  for (const Kind& kind : kKinds) names.push_back(kind.name);
+  return names;
 }
 
 }  // namespace stairway::sim

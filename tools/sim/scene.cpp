@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace stairway::sim {
@@ -17,7 +18,13 @@ constexpr double kRobotRadius_m = 0.2;
 Outline outline_of(const Room& room) { return rectangle((room.low + room.high) / 2, room.high - room.low, 0.0); }
 
 Outline robot_outline() {
-  return rectangle(Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(2 * kRobotRadius_m), 0.0);
+  constexpr int kCorners = 24;
+  Outline outline;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners;
+    outline.emplace_back(kRobotRadius_m * std::cos(angle), kRobotRadius_m * std::sin(angle));
+  }
+  return outline;
 }
 
 bool is_inside(const Room& room, const Outline& outline) {
@@ -78,7 +85,7 @@ std::string SceneSpec::problem() const {
 
 Scene build_scene(const SceneSpec& spec) {
   if (const std::string problem = spec.problem(); !problem.empty()) throw std::invalid_argument{problem};
-  Scene scene{spec.name, {}, {}};
+  Scene scene{.name = spec.name, .mesh = {}, .truths = {}, .mount = spec.mount};
   std::vector<Outline> floor{outline_of(spec.room)};
   std::vector<Outline> ceiling = floor;
   for (const auto& stairs : spec.stairs) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "detector/stairway.hpp"
+#include "scan_assembly/frames.hpp"
 #include "tools/sim/furniture.hpp"
 #include "tools/sim/mesh.hpp"
 #include "tools/sim/stair_spec.hpp"
@@ -26,6 +28,7 @@ struct SceneSpec {
   Room room;
   std::vector<StairSpec> stairs;
   std::vector<Furniture> furniture;
+  std::optional<scan::MountOptions> mount;  ///< of a scanner that can see the stairs, when not every one can
 
   /// First problem found, worded for the person who wrote the scene; empty when it can be built.
   std::string problem() const;
@@ -34,8 +37,9 @@ struct SceneSpec {
 /// What the scanner can see, and what there is to find.
 struct Scene {
   std::string name;
-  Mesh mesh;                             ///< scene frame = `base` of a robot that stands level [m]
-  std::vector<detect::Stairway> truths;  ///< in the order of the specification
+  Mesh mesh;                                ///< scene frame = `base` of a robot that stands level [m]
+  std::vector<detect::Stairway> truths;     ///< in the order of the specification
+  std::optional<scan::MountOptions> mount;  ///< as in the specification
 };
 
 /// Builds the meshes. A descending flight gets an opening in the floor with a shaft below it, and an ascending flight

@@ -6,13 +6,13 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <numbers>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "tools/sim/random_scenes.hpp"
 #include "tools/sim/shipped_scenes.hpp"
@@ -180,15 +180,6 @@ void read_list(const toml::table& root, const char* key, const std::string& sour
   }
 }
 
-std::optional<std::uint64_t> seed_after(std::string_view name, std::string_view prefix) {
-  if (!name.starts_with(prefix)) return std::nullopt;
-  name.remove_prefix(prefix.size());
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), seed);
-  if (error != std::errc{} || end != name.data() + name.size()) return std::nullopt;
-  return seed;
-}
-
 }  // namespace
 
 SceneSpec parse_scene(std::string_view text, const std::string& source) {
@@ -215,15 +206,14 @@ SceneSpec parse_scene(std::string_view text, const std::string& source) {
 }
 
 SceneSpec load_scene(const std::string& name) {
-  if (const auto seed = seed_after(name, "random-stairs:")) return random_stair_scene(*seed);
-  if (const auto seed = seed_after(name, "random-room:")) return random_room(*seed);
+  if (auto scene = random_scene(name)) return std::move(*scene);
   for (const auto& scene : shipped_scenes()) {
     if (scene.name == name) return parse_scene(scene.text, name);
   }
   if (!name.ends_with(".toml")) {
-    throw SceneFileError{
-        fmt::format("no scene is called \"{}\"; there are {}, random-stairs:SEED, random-room:SEED, or a file *.toml",
-                    name, fmt::join(shipped_scene_names(), ", "))};
+    throw SceneFileError{fmt::format("no scene is called \"{}\"; there are {}, {}:SEED, or a file *.toml", name,
+                                     fmt::join(shipped_scene_names(), ", "),
+                                     fmt::join(random_scene_kinds(), ":SEED, "))};
   }
   std::ifstream file{name, std::ios::binary};
   if (!file) throw SceneFileError{fmt::format("{}: cannot be opened; is the path right and readable?", name)};

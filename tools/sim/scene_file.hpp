@@ -26,7 +26,7 @@ class SceneFileError : public std::runtime_error {
 SceneSpec parse_scene(std::string_view text, const std::string& source);
 
 /// Finds a scene by what a user calls it: the name of a shipped one ("straight-flight"), a path that ends in ".toml",
-/// or a random one by its seed ("random-stairs:17", "random-room:17"). Throws SceneFileError.
+/// or a random one by its seed, as random_scene() knows it ("random-stairs:17"). Throws SceneFileError.
 SceneSpec load_scene(const std::string& name);
 
 /// What load_scene knows without a file, sorted.

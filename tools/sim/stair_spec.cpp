@@ -20,8 +20,8 @@ constexpr double kRailingInset_m = 0.04;
 constexpr double kBalusterRadius_m = 0.012;
 constexpr double kHandrailThickness_m = 0.045;
 constexpr double kLandingThickness_m = 0.16;
-constexpr double kFloorStrip_m = 0.3;  // of the floor one stands on, above a descending flight
-constexpr double kSpiralEye_m = 0.08;  // least inner radius of a spiral
+constexpr double kFloorStrip_m = 0.05;  // of the floor one stands on, above a descending flight
+constexpr double kSpiralEye_m = 0.08;   // least inner radius of a spiral
 const Eigen::Vector2d kAhead = Eigen::Vector2d::UnitX();
 
 // Where a nosing lies: its middle, height, and the direction of ascent there.
@@ -83,7 +83,9 @@ Ends ends(const Place& place, double width_m, double beyond_m = 0.0) {
 
 Outline between(const Ends& front, const Ends& back) { return {front.right, back.right, back.left, front.left}; }
 
-double upper_landing_m(const StairSpec& spec) { return spec.descending ? kFloorStrip_m : spec.landing_m; }
+double upper_landing_m(const StairSpec& spec) {
+  return spec.descending ? kFloorStrip_m + spec.overhang_m : spec.landing_m;
+}
 
 // The front and back of tread i as seen from above; the last one is the landing.
 Outline tread_outline(const StairSpec& spec, const std::vector<Place>& places, std::size_t i, double front_m) {
@@ -94,7 +96,7 @@ Outline tread_outline(const StairSpec& spec, const std::vector<Place>& places, s
 
 void add_closed_steps(const StairSpec& spec, const std::vector<Place>& places, double low_m, Mesh& mesh) {
   constexpr double kSoffit_m = 0.15;
-  const bool is_solid = spec.turn_per_step_rad == 0;  // a solid spiral would hide itself
+  const bool is_solid = spec.turn_per_step_rad == 0 && !spec.suspended;  // a solid spiral would hide itself
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double foot_m = is_solid ? low_m : std::max(low_m, places[i].z_m - spec.height_m - kSoffit_m);
     if (!is_solid) mesh.add_horizontal(tread_outline(spec, places, i, 0.0), foot_m);
@@ -136,8 +138,8 @@ void add_railing(const StairSpec& spec, const std::vector<Place>& places, double
   const auto foot = [&](const Place& place, double beyond_m) -> Eigen::Vector2d {
     return place.middle + beyond_m * place.ahead() + side * (spec.width_m / 2 - kRailingInset_m) * place.leftward();
   };
+  const double beyond = (spec.descending ? spec.depth_m : std::min(spec.depth_m, spec.landing_m)) / 2;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const double beyond = std::min(spec.depth_m, upper_landing_m(spec)) / 2;
     mesh.add_post(foot(places[i], beyond), places[i].z_m, places[i].z_m + kRailingHeight_m, kBalusterRadius_m, 6);
     if (i == 0) continue;
     mesh.add_beam(at_height(foot(places[i - 1], beyond), places[i - 1].z_m + kRailingHeight_m),

@@ -25,7 +25,8 @@ struct StairSpec {
   bool open_risers = false;  ///< treads are boards on stringers (a column, on a spiral), one sees through below them
   double tread_thickness_m = 0.04;  ///< of the boards, and of the lip that an overhang forms on closed stairs
   double overhang_m = 0.0;          ///< how far a nosing stands out before the riser below it
-  bool railing_left = false;        ///< balusters and handrail, seen while ascending
+  bool suspended = false;     ///< closed steps are a slab of even thickness, as spirals are, not solid to the floor
+  bool railing_left = false;  ///< balusters and handrail, seen while ascending
   bool railing_right = false;
   double landing_m = 1.2;  ///< length of the landing at the far end
   bool descending = false;

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "ipc/stairway_json.hpp"
+#include "tools/sim/random_scenes.hpp"
 #include "tools/sim/scene_file.hpp"
 #include "tools/sim/sweep.hpp"
 #include "tools/stairway/arguments.hpp"
@@ -40,7 +41,7 @@ double radians(double angle_deg) { return angle_deg * std::numbers::pi / 180.0; 
 
 int list_scenes() {
   for (const std::string& name : sim::shipped_scene_names()) print(name + '\n');
-  print("random-stairs:SEED\nrandom-room:SEED\n");
+  for (const std::string_view kind : sim::random_scene_kinds()) print(fmt::format("{}:SEED\n", kind));
   return kExitDone;
 }
 
@@ -54,7 +55,7 @@ bool write_line(const std::string& path, const std::string& line) {
 scan::PointCloud sweep_in(const sim::Scene& scene, const Arguments& arguments, const config::Settings& settings) {
   const int seed = arguments.seed.value_or(settings.simulate.seed);
   return simulate_sweep(
-      scene, settings.mount,
+      scene, scene.mount.value_or(settings.mount),
       {.robot_roll_rad = radians(arguments.roll_deg), .robot_pitch_rad = radians(arguments.pitch_deg)},
       {.disk_period_s = arguments.disk_period_s.value_or(settings.simulate.disk_period_s)},
       static_cast<std::uint64_t>(seed));

@@ -24,7 +24,8 @@ tl::expected<Source, SourceError> simulate(const std::string& name, const config
   if (!scene) return tl::unexpected(scene.error());
   const sim::SweepOptions sweep{.disk_period_s = settings.simulate.disk_period_s};
   Source source{.name = name, .truth = std::move(scene->truths)};
-  source.cloud = simulate_sweep(*scene, settings.mount, {}, sweep, static_cast<std::uint64_t>(settings.simulate.seed));
+  source.cloud = simulate_sweep(*scene, scene->mount.value_or(settings.mount), {}, sweep,
+                                static_cast<std::uint64_t>(settings.simulate.seed));
   timer.stop();
   source.timings = {{"simulate", timer.total_ms()}};
   return source;

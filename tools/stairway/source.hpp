@@ -28,8 +28,8 @@ struct SourceError {
   std::string text;
 };
 
-/// Reads a cloud file (PCD or PLY), or simulates a sweep in the scene of a "sim:SCENE" with the settings' mount, seed
-/// and disk period.
+/// Reads a cloud file (PCD or PLY), or simulates a sweep in the scene of a "sim:SCENE" with the settings' seed and
+/// disk period, and with the scene's mount or, for most scenes, the settings'.
 tl::expected<Source, SourceError> open_source(const std::string& name, const config::Settings& settings);
 
 /// Builds what load_scene() finds; the name may begin with "sim:".
