@@ -88,6 +88,7 @@ constexpr double kHeightFloor_m = 0.001;
 constexpr double kTurnFloor_rad = 0.0002;
 
 constexpr double kEndFloor_m = 0.003;
+constexpr int kMostSteps = 200;  // bounds the search beyond the ends
 constexpr double kNarrowest_m = 0.1;
 constexpr double kUnmeasuredEnd_m = 0.03;  // an end known from the parts alone
 constexpr double kGraphSigma_m = 0.010;
@@ -179,7 +180,7 @@ class JointFitter {
     for (const int direction : {+1, -1}) {
       int unseen = 0;
       for (int number = direction > 0 ? fit_.last + 1 : fit_.first - 1;
-           unseen < options_.max_unseen_steps && may_be_step(number) && std::abs(number) <= options_.max_steps;
+           unseen < options_.max_unseen_steps && may_be_step(number) && std::abs(number) <= kMostSteps;
            number += direction)
         unseen = look_at(number) ? 0 : unseen + 1;
     }
@@ -300,7 +301,7 @@ std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGr
 std::string broken_rule(const JointFit& fit, const StepLimits& limits, const ConfirmationOptions& confirmation,
                         const JointFitOptions& options) {
   if (std::string rule = broken_rule(fit.model, fit.seen_steps, confirmation); !rule.empty()) return rule;
-  if (!limits.allow(fit.model.height_m, fit.model.depth_m)) return "step-size-out-of-range";
+  if (!limits.allow(fit.model)) return "step-size-out-of-range";
   if (fit.seen_steps < options.min_seen_share * (fit.last - fit.first + 1)) return "steps-missing";
   if (std::max(fit.sigmas.height_m, fit.sigmas.depth_m) > options.max_sigma_m) return "too-uncertain";
   return {};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ enum class SegmentationMethod {
 struct SegmentationOptions {
   SegmentationMethod method = SegmentationMethod::RegionGrowing;
   NormalOptions normals;  ///< for region growing and VoxelSAC
+  double min_grazing_rad =
+      std::numbers::pi / 36;  ///< likewise: surfaces seen flatter than this are ghosts; 0 keeps all
   RegionGrowingOptions region_growing;
   SplitAndMergeOptions split_and_merge;
   VoxelSacOptions voxel_sac;
