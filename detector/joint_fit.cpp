@@ -144,8 +144,9 @@ class JointFitter {
   }
 
   std::optional<JointFit> run() {
+    // The steps of the graph first: what they tell finds the others.
     for (int pass = 0; pass < options_.passes; ++pass) {
-      if (!measure()) return std::nullopt;
+      if (!measure(pass > 0)) return std::nullopt;
       fit_steps();
       if (!fit_sides()) return std::nullopt;
     }
@@ -168,8 +169,8 @@ class JointFitter {
     return fit_.model.step(number).nosing.z() < 0.5 * fit_.model.height_m;
   }
 
-  // Measures the known steps and looks for more beyond both ends.
-  bool measure() {
+  // Measures the known steps and, if told so, looks for more beyond both ends.
+  bool measure(bool extend) {
     steps_.clear();
     const auto look_at = [&](int number) {
       std::optional<StepMeasurement> step = seen(number);
@@ -178,7 +179,7 @@ class JointFitter {
     };
     for (int number = fit_.first; number <= fit_.last; ++number) look_at(number);
     for (const int direction : {+1, -1}) {
-      int unseen = 0;
+      int unseen = extend ? 0 : options_.max_unseen_steps;
       for (int number = direction > 0 ? fit_.last + 1 : fit_.first - 1;
            unseen < options_.max_unseen_steps && may_be_step(number) && std::abs(number) <= kMostSteps;
            number += direction)
