@@ -132,6 +132,21 @@ class StepResiduals {
   std::vector<double>& residuals_;
 };
 
+// The few steps in a row that most parts speak for.
+std::pair<int, int> best_supported(const StairGraph& graph) {
+  constexpr int kInARow = 4;
+  std::pair<int, int> best{graph.parts.front().step, graph.parts.front().step};
+  std::ptrdiff_t most = 0;
+  for (auto begin = graph.parts.begin(); begin != graph.parts.end(); ++begin) {
+    const auto end = std::find_if(begin, graph.parts.end(),
+                                  [&](const GraphPart& part) { return part.step >= begin->step + kInARow; });
+    if (end - begin <= most) continue;
+    most = end - begin;
+    best = {begin->step, std::prev(end)->step};
+  }
+  return best;
+}
+
 class JointFitter {
  public:
   JointFitter(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& sides, View view,
@@ -139,14 +154,14 @@ class JointFitter {
       : options_(options), prior_(graph.model), view_(view), corridor_(cloud, graph.model, sides) {
     fit_.model = graph.model;
     fit_.sides = sides;
-    fit_.first = graph.parts.front().step;
-    fit_.last = graph.parts.back().step;
+    const auto [first, last] = best_supported(graph);
+    fit_.first = first;
+    fit_.last = last;
   }
 
   std::optional<JointFit> run() {
-    // The steps of the graph first: what they tell finds the others.
     for (int pass = 0; pass < options_.passes; ++pass) {
-      if (!measure(pass > 0)) return std::nullopt;
+      if (!measure(pass == 0 ? 0 : fit_.last - fit_.first + 1)) return std::nullopt;
       fit_steps();
       if (!fit_sides()) return std::nullopt;
     }
@@ -169,8 +184,9 @@ class JointFitter {
     return fit_.model.step(number).nosing.z() < 0.5 * fit_.model.height_m;
   }
 
-  // Measures the known steps and, if told so, looks for more beyond both ends.
-  bool measure(bool extend) {
+  // Measures the known steps and looks for up to `reach` more beyond both ends. As many as are fitted already tell well
+  // enough where those are; a model off by a fifteenth of a step would meet one step too few in all of a long flight.
+  bool measure(int reach) {
     steps_.clear();
     const auto look_at = [&](int number) {
       std::optional<StepMeasurement> step = seen(number);
@@ -179,11 +195,13 @@ class JointFitter {
     };
     for (int number = fit_.first; number <= fit_.last; ++number) look_at(number);
     for (const int direction : {+1, -1}) {
-      int unseen = extend ? 0 : options_.max_unseen_steps;
-      for (int number = direction > 0 ? fit_.last + 1 : fit_.first - 1;
-           unseen < options_.max_unseen_steps && may_be_step(number) && std::abs(number) <= kMostSteps;
-           number += direction)
+      const int end = direction > 0 ? fit_.last : fit_.first;
+      int unseen = 0;
+      for (int i = 1; i <= reach && unseen < options_.max_unseen_steps; ++i) {
+        const int number = end + i * direction;
+        if (!may_be_step(number) || std::abs(number) > kMostSteps) break;
         unseen = look_at(number) ? 0 : unseen + 1;
+      }
     }
     std::sort(steps_.begin(), steps_.end(),
               [](const StepMeasurement& a, const StepMeasurement& b) { return a.number < b.number; });
