@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tools/common/stairway_match.hpp"
 #include "tools/sim/stair_spec.hpp"
 #include "tools/stairway/stair_chart.hpp"
 #include "tools/stairway/truth_table.hpp"

@@ -18,7 +18,7 @@ using test::TemporaryFolder;
 TEST(Program, every_verb_has_help_with_an_example_and_its_exit_codes) {
   EXPECT_EQ(run_stairway({"--version"}).exit_code, 0);
   EXPECT_EQ(run_stairway({"--help"}).exit_code, 0);
-  for (const std::string verb : {"detect", "monitor", "simulate", "info", "config"}) {
+  for (const std::string verb : {"detect", "monitor", "simulate", "evaluate", "info", "config"}) {
     SCOPED_TRACE(verb);
     const auto outcome = run_stairway({verb, "--help"});
     EXPECT_EQ(outcome.exit_code, 0);

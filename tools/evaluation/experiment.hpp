@@ -17,7 +17,7 @@ namespace stairway::evaluation {
 
 /// A column of a table: reals are shown with `digits` behind the point.
 struct Column {
-  std::string name;  ///< machine-readable in JSON, e.g. "step_height"
+  std::string name;  ///< machine-readable, e.g. "step_height"; for a person "_" becomes a blank
   std::string unit;  ///< "" for plain numbers and names
   int digits = 2;
 };
@@ -26,7 +26,7 @@ struct Column {
 using Cell = std::variant<std::monostate, double, std::string>;
 
 struct Table {
-  std::string name;   ///< machine-readable, one per result, e.g. "series-I"
+  std::string name;   ///< machine-readable, unique in its result, e.g. "series-I"
   std::string title;  ///< for a person
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
@@ -35,8 +35,8 @@ struct Table {
 /// One line of points, or one colour of bars.
 struct Curve {
   std::string name;
-  std::vector<double> x;  ///< for bars: the index of the category
-  std::vector<double> y;
+  std::vector<double> x;       ///< for bars: the index of the category
+  std::vector<double> y;       ///< not finite where nothing is known; a line is interrupted there
   std::vector<double> spread;  ///< half the height of an error bar at each point; may be empty
   bool from_paper = false;     ///< drawn apart from what was measured here
 };
@@ -48,7 +48,7 @@ struct Chart {
   std::string y_label;
   std::vector<std::string> categories;  ///< bars when not empty, else points joined by lines
   std::vector<Curve> curves;
-  bool logarithmic = false;  ///< both axes
+  bool logarithmic = false;  ///< both axes; of bars, the vertical one. Values of 0 and below are left out
 };
 
 struct Result {
@@ -63,7 +63,7 @@ struct Request {
   std::uint64_t seed = 1;      ///< the same seed gives the same figures, times apart
   double share = 1.0;          ///< of the runs that the experiment makes by default, in (0, 1]; at least one each
   std::filesystem::path data;  ///< recorded data for experiments that can use them; may be empty
-  /// Told what part is done, 0 to 1, and what comes next; may be empty.
+  /// Told what part is done, 0 to 1, and what comes next; may be empty. Called by one thread at a time.
   std::function<void(double done, std::string_view next)> progress;
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "scan_assembly/point_cloud.hpp"
-#include "tools/stairway/canvas.hpp"
+#include "tools/common/canvas.hpp"
 
 namespace stairway::tools {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tools/stairway/canvas.hpp"
+#include "tools/common/canvas.hpp"
 #include "tools/stairway/panel.hpp"
 #include "tools/stairway/stair_chart.hpp"
 

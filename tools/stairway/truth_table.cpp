@@ -6,29 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <tuple>
+
+#include "tools/common/stairway_match.hpp"
 
 namespace stairway::tools {
 namespace {
 
-constexpr double kSameStairway_m = 0.5;
-
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
-
-Eigen::Vector3d middle(const detect::Nosing& nosing) { return 0.5 * (nosing.left + nosing.right); }
-
-double mean_distance(const detect::Stairway& found, const detect::Stairway& truth) {
-  double sum = 0.0;
-  for (const detect::Nosing& nosing : found.nosings) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const detect::Nosing& other : truth.nosings)
-      nearest = std::min(nearest, (middle(nosing) - middle(other)).norm());
-    sum += nearest;
-  }
-  return sum / static_cast<double>(found.nosings.size());
-}
 
 /// What the table compares; lengths in mm, angles in degrees.
 struct Figures {
@@ -81,24 +66,6 @@ std::string difference_row(const Figures& found, const Figures& truth) {
 }
 
 }  // namespace
-
-std::vector<std::pair<std::size_t, std::size_t>> match(const std::vector<detect::Stairway>& truth,
-                                                       const std::vector<detect::Stairway>& found) {
-  std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
-  for (std::size_t t = 0; t < truth.size(); ++t) {
-    for (std::size_t f = 0; f < found.size(); ++f) {
-      const double distance = mean_distance(found[f], truth[t]);
-      if (distance < kSameStairway_m) candidates.emplace_back(distance, t, f);
-    }
-  }
-  std::sort(candidates.begin(), candidates.end());
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (const auto& [distance, t, f] : candidates) {
-    const auto is_taken = [t = t, f = f](const auto& pair) { return pair.first == t || pair.second == f; };
-    if (std::none_of(pairs.begin(), pairs.end(), is_taken)) pairs.emplace_back(t, f);
-  }
-  return pairs;
-}
 
 std::string truth_text(const std::vector<detect::Stairway>& truth, const std::vector<detect::Stairway>& found) {
   if (truth.empty()) return fmt::format("  truth: no stairway; {} found\n", found.size());

@@ -9,6 +9,7 @@ std::span<const Verb> verbs() {
       {"detect", "find the stairways in clouds and simulated scenes", declare_detect},
       {"monitor", "show what stairwayd reports, live", declare_monitor},
       {"simulate", "write the cloud that the robot would assemble in a scene", declare_simulate},
+      {"evaluate", "repeat the experiments of the paper on simulated stairs", declare_evaluate},
       {"info", "describe clouds", declare_info},
       {"config", "show, check or compare settings", declare_config},
   };

@@ -40,12 +40,16 @@ class Canvas {
   void dashed_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Colour& colour, double width);
   void arrow(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Colour& colour, double width);
   void polygon(const std::vector<Eigen::Vector2d>& corners, const Colour& fill);
+  void rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Colour& fill);
+  void dashed_frame(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Colour& colour, double width);
   void disc(const Eigen::Vector2d& centre, double radius, const Colour& fill);
   void frame(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Colour& colour);
   /// Has a white rim, to be read on any ground.
   /// @param at  at the base line.
   void text(const Eigen::Vector2d& at, const std::string& text, double size, const Colour& colour,
             Align align = Align::Left, bool bold = false);
+  /// To be read from below upwards, its middle at `at`.
+  void upright_text(const Eigen::Vector2d& at, const std::string& text, double size, const Colour& colour);
   double text_width(const std::string& text, double size, bool bold = false);
   /// Stretches the image over the rectangle.
   void image(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const GreyImage& image);

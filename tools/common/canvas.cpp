@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The stairwayd authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/stairway/canvas.hpp"
+#include "tools/common/canvas.hpp"
 
 #include <cairo-svg.h>
 #include <cairo.h>
@@ -78,6 +78,18 @@ void Canvas::polygon(const std::vector<Eigen::Vector2d>& corners, const Colour& 
   cairo_fill(context_.get());
 }
 
+void Canvas::rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Colour& fill) {
+  polygon({low, {high.x(), low.y()}, high, {low.x(), high.y()}}, fill);
+}
+
+void Canvas::dashed_frame(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Colour& colour, double width) {
+  cairo_rectangle(context_.get(), low.x(), low.y(), high.x() - low.x(), high.y() - low.y());
+  const double dashes[] = {6.0, 4.0};
+  cairo_set_dash(context_.get(), dashes, 2, 0.0);
+  stroke(colour, width);
+  cairo_set_dash(context_.get(), nullptr, 0, 0.0);
+}
+
 void Canvas::disc(const Eigen::Vector2d& centre, double radius, const Colour& fill) {
   cairo_arc(context_.get(), centre.x(), centre.y(), radius, 0.0, 2.0 * std::numbers::pi);
   set_source(context_.get(), fill);
@@ -100,6 +112,14 @@ void Canvas::text(const Eigen::Vector2d& at, const std::string& text, double siz
   cairo_stroke_preserve(context_.get());
   set_source(context_.get(), colour);
   cairo_fill(context_.get());
+}
+
+void Canvas::upright_text(const Eigen::Vector2d& at, const std::string& text, double size, const Colour& colour) {
+  cairo_save(context_.get());
+  cairo_translate(context_.get(), at.x(), at.y());
+  cairo_rotate(context_.get(), -0.5 * std::numbers::pi);
+  this->text({0.0, 0.0}, text, size, colour, Align::Middle);
+  cairo_restore(context_.get());
 }
 
 double Canvas::text_width(const std::string& text, double size, bool bold) {
