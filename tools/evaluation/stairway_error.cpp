@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/evaluation/stairway_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tools/common/stairway_match.hpp"
+
+namespace stairway::evaluation {
+namespace {
+
+const detect::Nosing& anchor_nosing(const detect::Stairway& stairway) {
+  return stairway.direction == detect::StairwayDirection::Descending ? stairway.nosings.back()
+                                                                     : stairway.nosings.front();
+}
+
+Eigen::Vector3d middle(const detect::Nosing& nosing) { return 0.5 * (nosing.left + nosing.right); }
+
+Eigen::Vector3d place_at(const detect::Nosing& nosing, detect::AnchorSide side) {
+  switch (side) {
+    case detect::AnchorSide::Left:
+      return nosing.left;
+    case detect::AnchorSide::Right:
+      return nosing.right;
+    case detect::AnchorSide::Middle:
+      break;
+  }
+  return middle(nosing);
+}
+
+double turn_between(double from_rad, double to_rad) {
+  return std::remainder(to_rad - from_rad, 2.0 * std::numbers::pi);
+}
+
+}  // namespace
+
+StairwayError error_of(const detect::Stairway& found, const detect::Stairway& truth) {
+  const detect::Nosing& nosing = anchor_nosing(truth);
+  const Eigen::Vector2d left = (nosing.left - nosing.right).head<2>().normalized();
+  const Eigen::Vector2d ascent(left.y(), -left.x());
+  const Eigen::Vector3d off = found.anchor - place_at(nosing, found.anchor_side);
+  return {.height_m = found.step_height - truth.step_height,
+          .depth_m = found.step_depth - truth.step_depth,
+          .width_m = found.width - truth.width,
+          .pitch_rad = found.pitch() - truth.pitch(),
+          .heading_rad = turn_between(truth.heading, found.heading),
+          .turn_rad = found.turn_per_step - truth.turn_per_step,
+          .along_m = off.head<2>().dot(ascent),
+          .across_m = off.head<2>().dot(left),
+          .up_m = off.z(),
+          .middle_m = (middle(anchor_nosing(found)) - middle(nosing)).head<2>().norm(),
+          .steps = static_cast<int>(found.nosings.size()) - static_cast<int>(truth.nosings.size()),
+          .anchor_side = found.anchor_side};
+}
+
+Outcome outcome_of(const detect::Detection& detection, const std::vector<detect::Stairway>& truths,
+                   std::size_t wanted) {
+  const auto pairs = tools::match(truths, detection.stairways);
+  Outcome outcome{.error = {}, .false_count = static_cast<int>(detection.stairways.size() - pairs.size())};
+  for (const auto& [truth, found] : pairs)
+    if (truth == wanted) outcome.error = error_of(detection.stairways[found], truths[truth]);
+  return outcome;
+}
+
+int found_count(std::span<const Outcome> outcomes) {
+  return static_cast<int>(
+      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.error.has_value(); }));
+}
+
+int false_count(std::span<const Outcome> outcomes) {
+  int count = 0;
+  for (const Outcome& outcome : outcomes) count += outcome.false_count;
+  return count;
+}
+
+int right_step_count(std::span<const Outcome> outcomes) {
+  return static_cast<int>(
+      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.error && o.error->steps == 0; }));
+}
+
+Spread absolute_error(std::span<const Outcome> outcomes, const std::function<double(const StairwayError&)>& error,
+                      double factor) {
+  std::vector<double> values;
+  for (const Outcome& outcome : outcomes)
+    if (outcome.error) values.push_back(factor * std::abs(error(*outcome.error)));
+  return spread_of(values);
+}
+
+}  // namespace stairway::evaluation

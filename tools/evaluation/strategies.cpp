@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/evaluation/strategies.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "tools/evaluation/measurement_series.hpp"
+#include "tools/evaluation/parallel_runs.hpp"
+#include "tools/evaluation/stage_costs.hpp"
+#include "tools/evaluation/stairway_error.hpp"
+
+namespace stairway::evaluation {
+namespace {
+
+constexpr double kShareOfSeries = 0.5;
+constexpr std::size_t kEveryPlace = 2;
+constexpr double kMilliseconds = 1e3;
+
+struct StrategyRow {
+  detect::Strategy strategy;
+  const char* name;
+  Cell paper_ms;  ///< Fig 20
+};
+const std::array<StrategyRow, 4>& strategies() {
+  static const std::array<StrategyRow, 4> rows{{{detect::Strategy::Greedy, "greedy", 400.0},
+                                                {detect::Strategy::Thorough, "thorough", 900.0},
+                                                {detect::Strategy::Optimizing, "optimizing", 950.0},
+                                                {detect::Strategy::Joint, "joint", {}}}};
+  return rows;
+}
+
+struct Trial {
+  Outcome outcome;
+  double graph_s = 0.0;  ///< initialisation, extension, competition
+  double fit_s = 0.0;    ///< to the points; the paper has none
+};
+using Trials = std::array<Trial, 4>;
+
+Trials try_all(const SeriesRun& run, const Request& request) {
+  const SeriesSweep sweep = simulate_run(run, request, 1);
+  Trials trials;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    detect::DetectorOptions options = request.settings.detector;
+    options.competition.strategy = strategies()[i].strategy;
+    StageCosts costs;
+    const detect::Detection detection = detect::detect_stairways(sweep.cloud, options, costs.listener());
+    costs.stop();
+    trials[i] = {outcome_of(detection, sweep.truths), costs.seconds("stair_graph"), costs.seconds("fit")};
+  }
+  return trials;
+}
+
+/// What one strategy did at one stairway, or at both.
+struct Group {
+  std::vector<Outcome> outcomes;
+  std::vector<double> graph_ms;
+  std::vector<double> fit_ms;
+
+  void add(const Trial& trial) {
+    outcomes.push_back(trial.outcome);
+    graph_ms.push_back(kMilliseconds * trial.graph_s);
+    fit_ms.push_back(kMilliseconds * trial.fit_s);
+  }
+  Spread height() const {
+    return absolute_error(
+        outcomes, [](const StairwayError& e) { return e.height_m; }, kMillimetres);
+  }
+  Spread depth() const {
+    return absolute_error(
+        outcomes, [](const StairwayError& e) { return e.depth_m; }, kMillimetres);
+  }
+};
+using Groups = std::array<std::array<Group, 4>, 2>;  // by stairway and strategy
+
+Groups measure(const Request& request) {
+  const std::vector<SeriesRun> runs = series_runs(kShareOfSeries * request.share, kEveryPlace);
+  const auto tell = [&](std::size_t finished) {
+    if (!request.progress || finished >= runs.size()) return;
+    request.progress(
+        static_cast<double>(finished) / static_cast<double>(runs.size()),
+        fmt::format("stairway {} at {:.1f} m", runs[finished].stairway == 0 ? "I" : "III", runs[finished].distance_m));
+  };
+  tell(0);
+  const auto trials = run_in_parallel(
+      runs.size(), [&](std::size_t i) { return try_all(runs[i], request); }, tell);
+  Groups groups;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (std::size_t s = 0; s < trials[i].size(); ++s) groups[runs[i].stairway][s].add(trials[i][s]);
+  return groups;
+}
+
+Table error_table(const Groups& groups) {
+  Table table{.name = "strategies",
+              .title = "Errors and processor time of the competing initialisations (Figs 19 and 20)",
+              .columns = {{"stairway", ""},
+                          {"strategy", ""},
+                          {"runs", "", 0},
+                          {"found", "", 0},
+                          {"right_steps", "", 0},
+                          {"height_error", "mm", 2},
+                          {"height_sd", "mm", 2},
+                          {"depth_error", "mm", 2},
+                          {"depth_sd", "mm", 2},
+                          {"graph_time", "ms", 1},
+                          {"graph_time_sd", "ms", 1},
+                          {"fit_time", "ms", 1},
+                          {"paper_graph_time", "ms", 0}},
+              .rows = {}};
+  for (std::size_t stairway = 0; stairway < groups.size(); ++stairway) {
+    for (std::size_t s = 0; s < strategies().size(); ++s) {
+      const Group& group = groups[stairway][s];
+      const Spread graph = spread_of(group.graph_ms);
+      table.rows.push_back({std::string(stairway == 0 ? "I" : "III"), std::string(strategies()[s].name),
+                            static_cast<double>(group.outcomes.size()),
+                            static_cast<double>(found_count(group.outcomes)),
+                            static_cast<double>(right_step_count(group.outcomes)), group.height().mean,
+                            group.height().deviation, group.depth().mean, group.depth().deviation, graph.mean,
+                            graph.deviation, spread_of(group.fit_ms).mean, strategies()[s].paper_ms});
+    }
+  }
+  return table;
+}
+
+Chart error_chart(const Groups& groups) {
+  Chart chart{.name = "strategies-errors",
+              .title = "Errors of the competing initialisations",
+              .y_label = "mean absolute error [mm]",
+              .categories = {"I: height", "I: depth", "III: height", "III: depth"}};
+  for (std::size_t s = 0; s < strategies().size(); ++s) {
+    Curve curve{.name = strategies()[s].name};
+    for (const auto& of_stairway : groups) {
+      for (const Spread& spread : {of_stairway[s].height(), of_stairway[s].depth()}) {
+        curve.x.push_back(static_cast<double>(curve.x.size()));
+        curve.y.push_back(spread.mean);
+        curve.spread.push_back(spread.deviation);
+      }
+    }
+    chart.curves.push_back(std::move(curve));
+  }
+  return chart;
+}
+
+Chart time_chart(const Groups& groups) {
+  Chart chart{.name = "strategies-time",
+              .title = "Time of the graph and of the fit",
+              .y_label = "processor time [ms]",
+              .categories = {},
+              .curves = {{.name = "graph, here"},
+                         {.name = "fit to the points, here"},
+                         {.name = "graph, the paper", .from_paper = true}}};
+  for (std::size_t s = 0; s < strategies().size(); ++s) {
+    chart.categories.emplace_back(strategies()[s].name);
+    std::vector<double> graph, fit;
+    for (const auto& of_stairway : groups) {
+      graph.insert(graph.end(), of_stairway[s].graph_ms.begin(), of_stairway[s].graph_ms.end());
+      fit.insert(fit.end(), of_stairway[s].fit_ms.begin(), of_stairway[s].fit_ms.end());
+    }
+    const auto add = [&](Curve& curve, double value) {
+      curve.x.push_back(static_cast<double>(s));
+      curve.y.push_back(value);
+    };
+    add(chart.curves[0], spread_of(graph).mean);
+    if (strategies()[s].strategy == detect::Strategy::Joint) add(chart.curves[1], spread_of(fit).mean);
+    if (const auto* paper = std::get_if<double>(&strategies()[s].paper_ms)) add(chart.curves[2], *paper);
+  }
+  return chart;
+}
+
+}  // namespace
+
+Result run_strategies(const Request& request) {
+  const Groups groups = measure(request);
+  return {
+      .tables = {error_table(groups)},
+      .charts = {error_chart(groups), time_chart(groups)},
+      .notes = {"The sweeps are some of those of the experiment series: every metre from 0.5 to 6.5 m, five at each "
+                "place; see there for the stairways.",
+                "Of Fig 19 the paper's text only says that greedy is considerably worse, thorough better, and "
+                "optimizing best in almost all cases; joint is not in the paper.",
+                "Times are processor time of the one thread that detects; several sweeps are worked on at once. "
+                "graph is the stage stair_graph: initialisation, extension, confirmation and competition, and the "
+                "optimisation of eq 20. fit is the joint fit to the points. The paper does not name its computer."}};
+}
+
+}  // namespace stairway::evaluation
