@@ -103,9 +103,9 @@ Table error_table(const Groups& groups) {
                           {"height_sd", "mm", 2},
                           {"depth_error", "mm", 2},
                           {"depth_sd", "mm", 2},
-                          {"graph_time", "ms", 1},
-                          {"graph_time_sd", "ms", 1},
-                          {"fit_time", "ms", 1},
+                          {"graph_time", "ms", 2},
+                          {"graph_time_sd", "ms", 2},
+                          {"fit_time", "ms", 2},
                           {"paper_graph_time", "ms", 0}},
               .rows = {}};
   for (std::size_t stairway = 0; stairway < groups.size(); ++stairway) {
