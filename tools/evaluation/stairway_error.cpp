@@ -52,6 +52,8 @@ StairwayError error_of(const detect::Stairway& found, const detect::Stairway& tr
           .up_m = off.z(),
           .middle_m = (middle(anchor_nosing(found)) - middle(nosing)).head<2>().norm(),
           .steps = static_cast<int>(found.nosings.size()) - static_cast<int>(truth.nosings.size()),
+          .is_right_kind = found.kind == truth.kind,
+          .is_right_direction = found.direction == truth.direction,
           .anchor_side = found.anchor_side};
 }
 

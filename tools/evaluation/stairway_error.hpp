@@ -26,6 +26,8 @@ struct StairwayError {
   double up_m = 0.0;      ///< of the anchor
   double middle_m = 0.0;  ///< horizontal distance of the middle of the anchor's nosing from the true one, >= 0
   int steps = 0;
+  bool is_right_kind = true;                                    ///< straight or spiral
+  bool is_right_direction = true;                               ///< ascending or descending
   detect::AnchorSide anchor_side = detect::AnchorSide::Middle;  ///< that was found
 
   /// Horizontal distance of the anchor from the true end, or middle, of its nosing.
