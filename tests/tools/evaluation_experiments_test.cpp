@@ -96,9 +96,9 @@ TEST(Experiments, large_scale_tells_points_time_and_memory) {
 }
 
 TEST(Experiments, the_same_seed_gives_the_same_figures) {
-  const Experiment series{"series", "", run_series};
+  const Experiment spiral{"spiral", "", run_spiral};
   Request request = smallest_request();
-  const auto run = [&] { return result_json(series, request, run_series(request)); };
+  const auto run = [&] { return result_json(spiral, request, run_spiral(request)); };
   const std::string first = run();
   EXPECT_EQ(run(), first);
   request.seed = 1001;
