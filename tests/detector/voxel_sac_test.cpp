@@ -22,7 +22,7 @@ scan::PointCloud two_tables(double gap_m) {
 
 TEST(VoxelSac, spans_a_gap_of_less_than_a_cell) { EXPECT_EQ(segment(two_tables(0.12)).size(), 1U); }
 
-TEST(VoxelSac, stops_at_a_gap_of_more_than_two_cells) { EXPECT_EQ(segment(two_tables(0.36)).size(), 2U); }
+TEST(VoxelSac, stops_at_a_gap_of_more_than_two_cells) { EXPECT_EQ(segment(two_tables(0.7)).size(), 2U); }
 
 TEST(VoxelSac, finds_a_plane_in_a_cell_that_holds_other_points_too) {
   scan::PointCloud cloud;
