@@ -17,7 +17,9 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
   detect::SegmentationOptions& segmentation = detector.segmentation;
   Section(table, "detector.segmentation")
       .choice("method", segmentation.method, {"region-growing", "split-and-merge", "voxel-sac"},
-              "how planar regions are found");
+              "how planar regions are found")
+      .real("min_grazing", segmentation.min_grazing_rad, kDegree, {0, 44},
+            "surfaces seen flatter than this are ghosts of two others; 0 keeps them");
 
   Section(table, "detector.normals")
       .real("radius", segmentation.normals.radius_m, kMillimetre, {5, 500}, "neighbours within it make a normal")
@@ -98,7 +100,9 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
       .real("min_depth", steps.min_depth_m, kMillimetre, {10, 2000}, "shallowest step")
       .real("max_depth", steps.max_depth_m, kMillimetre, {10, 2000}, "deepest step")
       .real("min_slope", steps.min_slope_rad, kDegree, {0, 89}, "flattest pair of steps")
-      .real("max_slope", steps.max_slope_rad, kDegree, {1, 89}, "steepest pair of steps");
+      .real("max_slope", steps.max_slope_rad, kDegree, {1, 89}, "steepest pair of steps")
+      .real("min_turn", steps.min_turn_rad, kDegree, {1, 89}, "least turn from step to step of a spiral")
+      .real("max_turn", steps.max_turn_rad, kDegree, {1, 89}, "largest turn from step to step of a spiral");
 
   detect::InitialisationOptions& initialisation = competition.initialisation;
   Section(table, "detector.initialisation")
@@ -107,7 +111,8 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
       .real("max_riser_angle", initialisation.max_riser_angle_rad, kDegree, {1, 89},
             "between two risers of neighbouring steps")
       .real("min_side_overlap", initialisation.min_side_overlap_m, kMillimetre, {0, 2000},
-            "of two parts, across the stairway");
+            "of two parts, across the stairway")
+      .on_off("spirals", initialisation.spirals, "also start spirals");
 
   detect::ExtensionOptions& extension = competition.extension;
   Section(table, "detector.extension")

@@ -56,7 +56,7 @@ class Competition {
     candidate.graph =
         extend_graph(start.model, starting_sides(start, parts_), parts_, candidate.view, options_.extension);
     if (!is_free(candidate.graph)) return std::nullopt;
-    if (const std::string rule = broken_rule(candidate.graph, options_.confirmation); !rule.empty()) {
+    if (const std::string rule = broken_rule(candidate.graph, confirmation_for(candidate.view)); !rule.empty()) {
       remember(rule, candidate.graph);
       return std::nullopt;
     }
@@ -64,10 +64,18 @@ class Competition {
     return candidate;
   }
 
+  // A descent shows two treads and then strips too narrow for planes. The joint fit looks for their points, and
+  // confirms.
+  ConfirmationOptions confirmation_for(View view) const {
+    ConfirmationOptions confirmation = options_.confirmation;
+    if (options_.strategy == Strategy::Joint && view == View::FromAbove) confirmation.min_steps = 2;
+    return confirmation;
+  }
+
   void optimise(Winner& winner) const {
     const StairFit fit = fit_stairway(winner.graph, parts_, winner.view);
     StairGraph extended = extend_graph(fit.model, winner.graph.sides, parts_, winner.view, options_.extension);
-    if (!is_free(extended) || !broken_rule(extended, options_.confirmation).empty() ||
+    if (!is_free(extended) || !broken_rule(extended, confirmation_for(winner.view)).empty() ||
         extended.seen_steps() < winner.graph.seen_steps())
       return;
     winner.graph = std::move(extended);

@@ -6,12 +6,10 @@
 #include <numbers>
 
 #include "detector/deviation.hpp"
+#include "detector/spiral_initialisation.hpp"
 
 namespace stairway::detect {
 namespace {
-
-// The underside of a tread hides its top; this is a common thickness, to be replaced by what the whole graph says.
-constexpr double kTypicalTreadThickness_m = 0.04;
 
 struct Pair {
   const StairPart& lower;
@@ -20,9 +18,8 @@ struct Pair {
 
 double horizontal_distance(const Pair& pair) { return (pair.upper.centroid - pair.lower.centroid).head<2>().norm(); }
 
-bool side_by_side(const Pair& pair, const Eigen::Vector3d& descent, double min_overlap_m) {
-  const Eigen::Vector3d left = descent.cross(Eigen::Vector3d::UnitZ());
-  return overlap(part_extent(pair.lower, left), part_extent(pair.upper, left)) >= min_overlap_m;
+bool side_by_side(const Pair& pair, const StairModel& model, double min_overlap_m) {
+  return overlap(sides_of(pair.lower, model.step(0)), sides_of(pair.upper, model.step(1))) >= min_overlap_m;
 }
 
 Eigen::Vector3d towards_descent(const Eigen::Vector3d& direction, const Pair& pair) {
@@ -80,7 +77,7 @@ std::vector<StairModel> from_treads(const Pair& pair) {
   return models;
 }
 
-std::vector<StairModel> suggested_models(const Pair& pair, const InitialisationOptions& options) {
+std::vector<StairModel> suggested_flights(const Pair& pair, const InitialisationOptions& options) {
   switch (pair.lower.kind) {
     case StairPart::Kind::Riser:
       return from_risers(pair, options);
@@ -90,6 +87,15 @@ std::vector<StairModel> suggested_models(const Pair& pair, const InitialisationO
       break;
   }
   return from_edges(pair, options);
+}
+
+std::vector<StairModel> suggested_models(const Pair& pair, const InitialisationOptions& options) {
+  std::vector<StairModel> models = suggested_flights(pair, options);
+  if (options.spirals) {
+    const std::vector<StairModel> spirals = suggested_spirals(pair.lower, pair.upper);
+    models.insert(models.end(), spirals.begin(), spirals.end());
+  }
+  return models;
 }
 
 }  // namespace
@@ -115,8 +121,7 @@ std::vector<Initialisation> initialise_graphs(const std::vector<StairPart>& part
           rise > options.limits.max_height_m + kEdgeSlack_m || horizontal_distance(pair) > options.max_pair_distance_m)
         continue;
       for (const StairModel& model : suggested_models(pair, options)) {
-        if (options.limits.allow(model.height_m, model.depth_m) &&
-            side_by_side(pair, model.descent, options.min_side_overlap_m))
+        if (options.limits.allow(model) && side_by_side(pair, model, options.min_side_overlap_m))
           initialisations.push_back({model, {i, k}});
       }
     }

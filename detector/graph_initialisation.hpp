@@ -19,6 +19,7 @@ struct InitialisationOptions {
   double max_riser_angle_rad =
       std::numbers::pi / 12;         ///< between the normals of two risers of neighbouring steps [rad]
   double min_side_overlap_m = 0.10;  ///< of the two parts, across the stairway [m]
+  bool spirals = true;               ///< also start spirals
 
   std::string problem() const;
 };
@@ -32,7 +33,7 @@ struct Initialisation {
 /// Every model that two risers or two treads of neighbouring steps suggest.
 ///
 /// Two risers give up to two: h from their top or from their bottom edges. Two treads give up to four: d from their
-/// front or back edges, s from the first or the second.
+/// front or back edges, s from the first or the second. Each pair may start spirals as well, see suggested_spirals().
 ///
 /// @return initialisations within the limits, ordered by their parts. Cost: O(P^2) in the number of parts.
 /// Method: Westfechtel et al. 2018, section "Graph Initialization".

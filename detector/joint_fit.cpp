@@ -88,6 +88,7 @@ constexpr double kHeightFloor_m = 0.001;
 constexpr double kTurnFloor_rad = 0.0002;
 
 constexpr double kEndFloor_m = 0.003;
+constexpr int kMostSteps = 200;  // bounds the search beyond the ends
 constexpr double kNarrowest_m = 0.1;
 constexpr double kUnmeasuredEnd_m = 0.03;  // an end known from the parts alone
 constexpr double kGraphSigma_m = 0.010;
@@ -131,6 +132,21 @@ class StepResiduals {
   std::vector<double>& residuals_;
 };
 
+// The few steps in a row that most parts speak for.
+std::pair<int, int> best_supported(const StairGraph& graph) {
+  constexpr int kInARow = 4;
+  std::pair<int, int> best{graph.parts.front().step, graph.parts.front().step};
+  std::ptrdiff_t most = 0;
+  for (auto begin = graph.parts.begin(); begin != graph.parts.end(); ++begin) {
+    const auto end = std::find_if(begin, graph.parts.end(),
+                                  [&](const GraphPart& part) { return part.step >= begin->step + kInARow; });
+    if (end - begin <= most) continue;
+    most = end - begin;
+    best = {begin->step, std::prev(end)->step};
+  }
+  return best;
+}
+
 class JointFitter {
  public:
   JointFitter(const scan::PointCloud& cloud, const StairGraph& graph, const Interval& sides, View view,
@@ -138,13 +154,14 @@ class JointFitter {
       : options_(options), prior_(graph.model), view_(view), corridor_(cloud, graph.model, sides) {
     fit_.model = graph.model;
     fit_.sides = sides;
-    fit_.first = graph.parts.front().step;
-    fit_.last = graph.parts.back().step;
+    const auto [first, last] = best_supported(graph);
+    fit_.first = first;
+    fit_.last = last;
   }
 
   std::optional<JointFit> run() {
     for (int pass = 0; pass < options_.passes; ++pass) {
-      if (!measure()) return std::nullopt;
+      if (!measure(pass == 0 ? 0 : fit_.last - fit_.first + 1)) return std::nullopt;
       fit_steps();
       if (!fit_sides()) return std::nullopt;
     }
@@ -167,8 +184,9 @@ class JointFitter {
     return fit_.model.step(number).nosing.z() < 0.5 * fit_.model.height_m;
   }
 
-  // Measures the known steps and looks for more beyond both ends.
-  bool measure() {
+  // Measures the known steps and looks for up to `reach` more beyond both ends. As many as are fitted already tell well
+  // enough where those are; a model off by a fifteenth of a step would meet one step too few in all of a long flight.
+  bool measure(int reach) {
     steps_.clear();
     const auto look_at = [&](int number) {
       std::optional<StepMeasurement> step = seen(number);
@@ -177,11 +195,13 @@ class JointFitter {
     };
     for (int number = fit_.first; number <= fit_.last; ++number) look_at(number);
     for (const int direction : {+1, -1}) {
+      const int end = direction > 0 ? fit_.last : fit_.first;
       int unseen = 0;
-      for (int number = direction > 0 ? fit_.last + 1 : fit_.first - 1;
-           unseen < options_.max_unseen_steps && may_be_step(number) && std::abs(number) <= options_.max_steps;
-           number += direction)
+      for (int i = 1; i <= reach && unseen < options_.max_unseen_steps; ++i) {
+        const int number = end + i * direction;
+        if (!may_be_step(number) || std::abs(number) > kMostSteps) break;
         unseen = look_at(number) ? 0 : unseen + 1;
+      }
     }
     std::sort(steps_.begin(), steps_.end(),
               [](const StepMeasurement& a, const StepMeasurement& b) { return a.number < b.number; });
@@ -300,7 +320,7 @@ std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGr
 std::string broken_rule(const JointFit& fit, const StepLimits& limits, const ConfirmationOptions& confirmation,
                         const JointFitOptions& options) {
   if (std::string rule = broken_rule(fit.model, fit.seen_steps, confirmation); !rule.empty()) return rule;
-  if (!limits.allow(fit.model.height_m, fit.model.depth_m)) return "step-size-out-of-range";
+  if (!limits.allow(fit.model)) return "step-size-out-of-range";
   if (fit.seen_steps < options.min_seen_share * (fit.last - fit.first + 1)) return "steps-missing";
   if (std::max(fit.sigmas.height_m, fit.sigmas.depth_m) > options.max_sigma_m) return "too-uncertain";
   return {};

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "detector/segmentation.hpp"
 
+#include "detector/ghost_filter.hpp"
+
 namespace stairway::detect {
 
 std::string SegmentationOptions::problem() const {
   for (const std::string& problem :
        {normals.problem(), region_growing.problem(), split_and_merge.problem(), voxel_sac.problem()})
     if (!problem.empty()) return problem;
+  if (!(min_grazing_rad >= 0.0 && min_grazing_rad < std::numbers::pi / 4))
+    return "min_grazing must lie between 0 and 45 degrees";
   return {};
 }
 
@@ -21,10 +25,16 @@ std::vector<PlaneRegion> segment(const scan::PointCloud& thinned, const Segmenta
     return split_and_merge(thinned, options.split_and_merge);
   }
   begin_stage("normals");
-  const SurfaceNormals surface = estimate_normals(thinned, options.normals);
+  SurfaceNormals surface = estimate_normals(thinned, options.normals);
   begin_stage("segmentation");
-  return options.method == SegmentationMethod::VoxelSac ? voxel_sac(thinned, surface, options.voxel_sac)
-                                                        : grow_regions(thinned, surface, options.region_growing);
+  scan::PointCloud clean = thinned;
+  const std::vector<std::uint32_t> kept = drop_ghosts(clean, surface, options.min_grazing_rad);
+  std::vector<PlaneRegion> regions = options.method == SegmentationMethod::VoxelSac
+                                         ? voxel_sac(clean, surface, options.voxel_sac)
+                                         : grow_regions(clean, surface, options.region_growing);
+  for (PlaneRegion& region : regions)
+    for (std::uint32_t& point : region.points) point = kept[point];
+  return regions;
 }
 
 }  // namespace stairway::detect

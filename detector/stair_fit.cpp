@@ -10,7 +10,7 @@
 namespace stairway::detect {
 namespace {
 
-constexpr int kUnknowns = 5;
+constexpr int kMostUnknowns = 6;
 constexpr int kCostsPerPart = 3;
 
 // The unknowns are changes from the model the fit starts at, so that all are small and of like size.
@@ -20,6 +20,7 @@ StairModel moved(const StairModel& start, const Eigen::VectorXd& change) {
   model.depth_m += change[1];
   model.descent = Eigen::AngleAxisd(change[2], Eigen::Vector3d::UnitZ()) * start.descent;
   model.nosing += change[3] * start.descent + change[4] * Eigen::Vector3d::UnitZ();
+  if (start.is_spiral()) model.turn_rad += change[5];
   return model;
 }
 
@@ -34,7 +35,7 @@ struct Costs {
   const std::vector<StairPart>& parts;
   View view;
 
-  int inputs() const { return kUnknowns; }
+  int inputs() const { return graph.model.is_spiral() ? kMostUnknowns : kMostUnknowns - 1; }
   int values() const { return static_cast<int>(graph.parts.size()) * kCostsPerPart; }
 
   // Eq 20: E = sum over risers of (delta_d + delta_h + delta_s) + sum over treads of (delta_d + delta_h).
@@ -56,9 +57,9 @@ struct Costs {
 StairFit fit_stairway(const StairGraph& graph, const std::vector<StairPart>& parts, View view) {
   StairFit fit{graph.model, {}};
   const Costs costs{graph, parts, view};
-  if (costs.values() <= kUnknowns) return fit;
+  if (costs.values() <= costs.inputs()) return fit;
 
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(kUnknowns);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(costs.inputs());
   Eigen::NumericalDiff<Costs> differentiable(costs, 1e-12);
   Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Costs>> solver(differentiable);
   solver.minimize(change);
@@ -66,12 +67,12 @@ StairFit fit_stairway(const StairGraph& graph, const std::vector<StairPart>& par
   fit.model = moved(graph.model, change);
 
   Eigen::VectorXd residuals(costs.values());
-  Eigen::MatrixXd jacobian(costs.values(), kUnknowns);
+  Eigen::MatrixXd jacobian(costs.values(), costs.inputs());
   costs(change, residuals);
   differentiable.df(change, jacobian);
   const Eigen::MatrixXd information = jacobian.transpose() * jacobian;
   const Eigen::MatrixXd covariance = information.completeOrthogonalDecomposition().pseudoInverse() *
-                                     (residuals.squaredNorm() / static_cast<double>(costs.values() - kUnknowns));
+                                     (residuals.squaredNorm() / static_cast<double>(costs.values() - costs.inputs()));
   const Eigen::VectorXd sigmas = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   fit.sigmas = {.height_m = sigmas[0], .depth_m = sigmas[1], .heading_rad = sigmas[2]};
   return fit;

@@ -19,7 +19,8 @@ struct StairFit {
 };
 
 /// Moves the model so that its parts fit best: Levenberg-Marquardt on the costs of eq 20 over h, d, the direction of s,
-/// and the place of P along s and z. Where P lies across the stairway does not enter the costs and stays.
+/// the place of P along s and z and, of a spiral, delta phi. Where P lies across the stairway does not enter the costs
+/// and stays.
 ///
 /// Metres and radians are added with weight 1, as printed.
 ///

@@ -36,13 +36,16 @@ std::string StepLimits::problem() const {
   if (!(0.0 < min_height_m && min_height_m < max_height_m)) return "step heights must satisfy 0 < minimum < maximum";
   if (!(0.0 < min_depth_m && min_depth_m < max_depth_m)) return "step depths must satisfy 0 < minimum < maximum";
   if (!(0.0 < min_slope_rad && min_slope_rad < max_slope_rad)) return "slopes must satisfy 0 < minimum < maximum";
+  if (!(0.0 < min_turn_rad && min_turn_rad < max_turn_rad && max_turn_rad < std::numbers::pi / 2))
+    return "turns must satisfy 0 < minimum < maximum < 90 degrees";
   return {};
 }
 
-bool StepLimits::allow(double height_m, double depth_m) const {
-  const double slope = std::atan2(height_m, depth_m);
-  return height_m >= min_height_m && height_m <= max_height_m && depth_m >= min_depth_m && depth_m <= max_depth_m &&
-         slope >= min_slope_rad && slope <= max_slope_rad;
+bool StepLimits::allow(const StairModel& model) const {
+  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+  return within(model.height_m, min_height_m, max_height_m) && within(model.depth_m, min_depth_m, max_depth_m) &&
+         within(std::atan2(model.height_m, model.depth_m), min_slope_rad, max_slope_rad) &&
+         (!model.is_spiral() || within(std::abs(model.turn_rad), min_turn_rad, max_turn_rad));
 }
 
 }  // namespace stairway::detect

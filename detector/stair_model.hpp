@@ -58,9 +58,11 @@ struct StepLimits {
   double max_depth_m = 0.40;
   double min_slope_rad = std::numbers::pi / 12;      ///< 15 deg: DIN 18065 and the paper's margin of 5 deg
   double max_slope_rad = std::numbers::pi * 5 / 18;  ///< 50 deg
+  double min_turn_rad = std::numbers::pi / 18;       ///< 10 deg: what turns less from step to step is no spiral
+  double max_turn_rad = std::numbers::pi * 5 / 18;   ///< 50 deg
 
   std::string problem() const;
-  bool allow(double height_m, double depth_m) const;
+  bool allow(const StairModel& model) const;
 };
 
 }  // namespace stairway::detect

@@ -7,6 +7,9 @@
 
 namespace stairway::detect {
 
+/// The underside of a tread hides its top; this is a common thickness, to be replaced by what a whole graph says [m].
+inline constexpr double kTypicalTreadThickness_m = 0.04;
+
 /// A plane region that looks like a part of a step (P_r/t of the paper). All in the frame of the cloud, z up.
 ///
 /// The outline is the rectangle that a robust measure of the region's extents gives, in the plane's own axes:

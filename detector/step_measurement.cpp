@@ -154,6 +154,7 @@ class StepSurvey {
     } else if (sees_edge_from_behind()) {
       measure_edge();
     }
+    if (model_.is_spiral()) measure_inner_end();
     return result_;
   }
 
@@ -161,6 +162,10 @@ class StepSurvey {
   bool faces_front() const { return !sensor_ || sensor_->u < front_u_ - kClearance_m; }
   bool sees_edge_from_behind() const {
     return sensor_ && sensor_->u > kClearance_m && sensor_->z > kClearance_m && result_.surface;
+  }
+
+  bool looks_down_from_behind() const {
+    return sensor_ && sensor_->u > model_.depth_m + kClearance_m && sensor_->z > kClearance_m;
   }
 
   // The next nosing, which on a spiral is turned against this one.
@@ -311,14 +316,23 @@ class StepSurvey {
     if (front->variance_v > 0.0) result_.turn = Estimate{front->turn, sigma / std::sqrt(front->variance_v)};
   }
 
+  // Clear of the edges. From behind one looks over the next nosing, whose edge mixes with what lies below it.
+  bool lies_on_tread(const StepPoint& p) const {
+    const double depth = depth_at(p.v);
+    const double margin = kTreadMargin * depth;
+    if (!looks_down_from_behind()) return p.u > front_u_ + margin && p.u < front_u_ + depth - margin;
+    const double slope = (sensor_->z - p.z) / (sensor_->u - p.u);
+    const double over_next = p.z + (depth - p.u) * slope - model_.height_m;
+    const double over_nosing = p.z - p.u * slope;
+    const double spot = spot_radius() * std::hypot(1.0, slope);
+    return p.u < depth && over_next > spot && over_nosing < -spot;
+  }
+
   void measure_level(double low, double high, std::optional<Estimate>& level) const {
     std::vector<double> heights;
     std::vector<double> places;
     for (const StepPoint& p : points_) {
-      const double margin = kTreadMargin * depth_at(p.v);
-      if (p.z < low || p.z > high || !beside_middle(p) || p.u < front_u_ + margin ||
-          p.u > front_u_ + depth_at(p.v) - margin)
-        continue;
+      if (p.z < low || p.z > high || !beside_middle(p) || !lies_on_tread(p)) continue;
       heights.push_back(p.z);
       places.push_back(p.v);
     }
@@ -440,6 +454,40 @@ class StepSurvey {
     std::optional<Estimate> place = common_place(rows.edges(), kFloor_m);
     if (place) place->value *= outward;
     return place;
+  }
+
+  // Beyond the inner end of a spiral's step lines of sight meet its other steps, so where the step's own points thin
+  // out has to do.
+  void measure_inner_end() {
+    const bool to_left = model_.turn_rad > 0.0;
+    std::optional<Estimate>& end = to_left ? result_.left_end : result_.right_end;
+    end.reset();
+    if (result_.underside) end = end_of_level(result_.underside->value, to_left);
+    if (!end && result_.surface) end = end_of_level(result_.surface->value, to_left);
+  }
+
+  std::optional<Estimate> end_of_level(double level, bool to_left) const {
+    constexpr double kBin_m = 0.02;
+    constexpr double kThin = 0.25;
+    constexpr double kSigma_m = 0.01;
+    const double sign = to_left ? 1.0 : -1.0;
+    const double middle = sides_.middle();
+    const double reach = std::abs(model_.radius_m()) + sign * middle;  // to the axis
+    std::vector<double> areas(static_cast<std::size_t>(std::max(2.0, reach / kBin_m)), 0.0);
+    for (const StepPoint& p : points_) {
+      const double out = sign * (p.v - middle);
+      const double depth = depth_at(p.v);
+      if (out < 0.0 || depth < kBin_m || std::abs(p.z - level) > reach_ || p.u < 0.0 || p.u > depth) continue;
+      const auto bin = static_cast<std::size_t>(out / kBin_m);
+      if (bin < areas.size()) areas[bin] += 1.0 / depth;
+    }
+    const double usual = median({areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>((areas.size() + 1) / 2)});
+    if (!(usual > 0.0)) return std::nullopt;
+    for (std::size_t bin = 0; bin + 1 < areas.size(); ++bin)
+      if (areas[bin] < kThin * usual && areas[bin + 1] < kThin * usual)
+        return bin == 0 ? std::nullopt
+                        : std::optional(Estimate{middle + sign * static_cast<double>(bin) * kBin_m, kSigma_m});
+    return std::nullopt;
   }
 
   const StairModel& model_;

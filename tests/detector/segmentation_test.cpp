@@ -70,7 +70,7 @@ scan::PointCloud step() {
   test::add_rectangle(cloud, {1.03, -0.6, 0.01}, {1.0, 0, 0}, {0, 1.2, 0}, 0.012);
   test::add_rectangle(cloud, {2.03, -0.6, 0.01}, {0, 0, 0.18}, {0, 1.2, 0}, 0.012);
   test::add_rectangle(cloud, {2.03, -0.6, 0.19}, {0.3, 0, 0}, {0, 1.2, 0}, 0.012);
-  cloud.sensor_origin = Eigen::Vector3f(0, 0, 0.5F);
+  cloud.sensor_origin = Eigen::Vector3f(0, 0, 1.0F);
   return cloud;
 }
 const Wanted kStep[] = {{{0, 0, 1}, {1.53, 0, 0.01}}, {{1, 0, 0}, {2.03, 0, 0.1}}, {{0, 0, 1}, {2.18, 0, 0.19}}};

@@ -62,13 +62,14 @@ TEST(StepFrame, gives_back_the_point_it_was_asked_for) {
 
 TEST(StepLimits, are_those_of_the_paper) {
   const StepLimits limits;
-  EXPECT_TRUE(limits.allow(0.17, 0.29));
-  EXPECT_TRUE(limits.allow(0.11, 0.40)) << "15.4 degrees";
-  EXPECT_FALSE(limits.allow(0.109, 0.30));
-  EXPECT_FALSE(limits.allow(0.241, 0.30));
-  EXPECT_FALSE(limits.allow(0.17, 0.179));
-  EXPECT_FALSE(limits.allow(0.17, 0.401));
-  EXPECT_FALSE(limits.allow(0.24, 0.19)) << "steeper than 50 degrees";
+  const auto allow = [&](double height, double depth) { return limits.allow(test::make_model(height, depth)); };
+  EXPECT_TRUE(allow(0.17, 0.29));
+  EXPECT_TRUE(allow(0.11, 0.40)) << "15.4 degrees";
+  EXPECT_FALSE(allow(0.109, 0.30));
+  EXPECT_FALSE(allow(0.241, 0.30));
+  EXPECT_FALSE(allow(0.17, 0.179));
+  EXPECT_FALSE(allow(0.17, 0.401));
+  EXPECT_FALSE(allow(0.24, 0.19)) << "steeper than 50 degrees";
 }
 
 }  // namespace
