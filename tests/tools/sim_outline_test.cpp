@@ -64,5 +64,15 @@ TEST(SimOutline, touching_is_not_overlapping) {
   EXPECT_TRUE(overlap(a, rectangle({0, 0}, {0.1, 0.1}, 1)));
 }
 
+TEST(Outline, hull_keeps_its_corners_when_rounding_tilts_its_sides) {
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i <= 8; ++i) {
+    const double jitter = (i * 7 % 5 - 2) * 1e-16;
+    points.emplace_back(1.0 + jitter, 0.4 * i);
+    points.emplace_back(2.0 - jitter, 0.4 * i);
+  }
+  EXPECT_NEAR(area(convex_hull(points)), 3.2, 1e-6);
+}
+
 }  // namespace
 }  // namespace stairway::sim

@@ -9,6 +9,7 @@ namespace stairway::sim {
 namespace {
 
 constexpr double kSmallestArea_m2 = 1e-9;
+constexpr double kResolution_m = 1e-7;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -37,6 +38,8 @@ Outline rectangle(const Eigen::Vector2d& center, const Eigen::Vector2d& size, do
 }
 
 Outline convex_hull(std::vector<Eigen::Vector2d> points) {
+  // Points of one vertical side differ in x by rounding; sorted by that they would jump up and down the side.
+  for (Eigen::Vector2d& p : points) p = (p / kResolution_m).array().round() * kResolution_m;
   std::sort(points.begin(), points.end(),
             [](const auto& a, const auto& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
   Outline hull;
