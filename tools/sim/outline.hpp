@@ -13,7 +13,7 @@ using Outline = std::vector<Eigen::Vector2d>;
 /// A rectangle of `size` about `center`, its first side turned by `yaw_rad` from x.
 Outline rectangle(const Eigen::Vector2d& center, const Eigen::Vector2d& size, double yaw_rad);
 
-/// The smallest convex polygon around all points; fewer than three corners when they lie on one line.
+/// The smallest convex polygon around all points, to 0.1 um; fewer than three corners when they lie on one line.
 Outline convex_hull(std::vector<Eigen::Vector2d> points);
 
 /// The parts of `from` outside `hole`, as convex pieces that do not overlap.
