@@ -63,9 +63,10 @@ Axis make_y_axis(const Chart& chart) {
     }
   }
   if (!chart.logarithmic && !range.is_empty()) range.take(0.0, false);
-  // A value on the upper border, and the number above it, would be cut.
+  // The number above a bar needs a place.
   constexpr double kHeadroom = 0.05;
-  if (!chart.logarithmic && !range.is_empty()) range.high += kHeadroom * (range.high - range.low);
+  if (!chart.logarithmic && !chart.categories.empty() && !range.is_empty())
+    range.high += kHeadroom * (range.high - range.low);
   return make_axis(range, chart.logarithmic, kMaxTicksY);
 }
 

@@ -207,6 +207,7 @@ Chart detection_chart(const std::vector<SeriesPlace>& places) {
         if (place.stairway != stairway || place.strategy != s) continue;
         curve.x.push_back(place.distance_m);
         curve.y.push_back(100.0 * found_count(place.outcomes) / static_cast<double>(place.outcomes.size()));
+        curve.spread.push_back(0.0);  // sets the curves apart
       }
       chart.curves.push_back(std::move(curve));
     }
