@@ -317,10 +317,26 @@ std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGr
   return JointFitter(cloud, graph, sides, view, options).run();
 }
 
+namespace {
+
+// As near to the limits as three sigmas allow: a step as deep as the deepest may well be measured a little deeper.
+StairModel nearest_to(const StepLimits& limits, const JointFit& fit) {
+  constexpr double kSigmas = 3.0;
+  const auto towards = [](double value, double low, double high, double reach) {
+    return std::clamp(std::clamp(value, low, high), value - reach, value + reach);
+  };
+  StairModel model = fit.model;
+  model.height_m = towards(model.height_m, limits.min_height_m, limits.max_height_m, kSigmas * fit.sigmas.height_m);
+  model.depth_m = towards(model.depth_m, limits.min_depth_m, limits.max_depth_m, kSigmas * fit.sigmas.depth_m);
+  return model;
+}
+
+}  // namespace
+
 std::string broken_rule(const JointFit& fit, const StepLimits& limits, const ConfirmationOptions& confirmation,
                         const JointFitOptions& options) {
   if (std::string rule = broken_rule(fit.model, fit.seen_steps, confirmation); !rule.empty()) return rule;
-  if (!limits.allow(fit.model)) return "step-size-out-of-range";
+  if (!limits.allow(nearest_to(limits, fit))) return "step-size-out-of-range";
   if (fit.seen_steps < options.min_seen_share * (fit.last - fit.first + 1)) return "steps-missing";
   if (std::max(fit.sigmas.height_m, fit.sigmas.depth_m) > options.max_sigma_m) return "too-uncertain";
   return {};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "detector/statistics.hpp"
 
@@ -26,16 +27,23 @@ Eigen::Vector3d mid_nosing(const FittedStairway& stairway, int number) {
 bool touches_step(const Eigen::Vector3d& nosing, const FittedStairway& stairway, int number) {
   constexpr double kBeside_m = 0.3;
   const StepPoint p = stairway.model.step(number).to_step(nosing);
-  return std::abs(p.u) <= 0.75 * stairway.model.depth_m && std::abs(p.z) < 1.5 * stairway.model.height_m &&
+  return std::abs(p.u) <= 0.75 * stairway.model.depth_m && std::abs(p.z) < 2.0 * stairway.model.height_m &&
          p.v > stairway.sides.low - kBeside_m && p.v < stairway.sides.high + kBeside_m;
 }
 
+// A spiral hides its farther steps, which may look like a flight of their own: so its turn is followed once around.
+int steps_beyond(const FittedStairway& stairway) {
+  if (!stairway.model.is_spiral()) return 1;
+  return static_cast<int>(2.0 * std::numbers::pi / std::abs(stairway.model.turn_rad));
+}
+
 bool lies_within(const FittedStairway& small, const FittedStairway& large) {
+  const int beyond = steps_beyond(large);
   int inside = 0;
   for (int number = small.first; number <= small.last; ++number) {
     const Eigen::Vector3d nosing = mid_nosing(small, number);
     bool touches = false;
-    for (int other = large.first - 1; other <= large.last + 1 && !touches; ++other)
+    for (int other = large.first - beyond; other <= large.last + beyond && !touches; ++other)
       touches = touches_step(nosing, large, other);
     inside += touches ? 1 : 0;
   }

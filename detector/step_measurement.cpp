@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "detector/sight_edge.hpp"
@@ -148,11 +149,13 @@ class StepSurvey {
     if (result_.front) {
       measure_nosing();
       if (sensor_) {
-        result_.right_end = measure_end(sides_.low);
-        result_.left_end = measure_end(sides_.high);
+        result_.right_end = measure_end(sides_.low, fronts());
+        result_.left_end = measure_end(sides_.high, fronts());
       }
     } else if (sees_edge_from_behind()) {
       measure_edge();
+      result_.right_end = measure_end(sides_.low, treads_seen_from_behind());
+      result_.left_end = measure_end(sides_.high, treads_seen_from_behind());
     }
     if (model_.is_spiral()) measure_inner_end();
     return result_;
@@ -185,9 +188,9 @@ class StepSurvey {
         const StepPoint q = at_front(p);
         picked = is_near(q.v, q.z);
       }
-      if (!picked && sensor_ && p.z < 0.0 && sensor_->z > kClearance_m) {
+      if (!picked && sensor_ && sensor_->z > p.z + kClearance_m && sensor_->z > kClearance_m) {
         const StepPoint q = at_tread(p);
-        picked = std::abs(q.u) < margin && q.v > low_v && q.v < high_v;
+        picked = q.u > -margin && q.u < std::max(margin, kEndBand_m) && q.v > low_v && q.v < high_v;
       }
       if (picked) points_.push_back(p);
     }
@@ -423,27 +426,53 @@ class StepSurvey {
     if (line.variance_v > 0.0) result_.turn = Estimate{line.turn, sigma / std::sqrt(line.variance_v)};
   }
 
-  // Like the nosing, but what stands in the way of the front (a post, a bystander) says nothing about its end.
-  std::optional<Estimate> measure_end(double end) const {
+  /// A face of the step on which its ends are looked for, and how lines of sight cross it.
+  struct Face {
+    Interval band;                                   ///< of the face that is looked at, across the ends [m]
+    std::function<double(const StepPoint&)> place;   ///< in the band, where the line of sight to a point crosses it
+    std::function<double(const StepPoint&)> side;    ///< and its v
+    std::function<double(const StepPoint&)> beyond;  ///< how far the point lies behind the face [m]
+    double reach;                                    ///< a point is on the face within this distance [m]
+  };
+
+  Face fronts() const {
+    return {.band = {std::max(visible_bottom(), -kEndBand_m), 0.0},
+            .place = [this](const StepPoint& p) { return at_front(p).z; },
+            .side = [this](const StepPoint& p) { return at_front(p).v; },
+            .beyond = [this](const StepPoint& p) { return p.u - front_u_; },
+            .reach = kFrontReach_m};
+  }
+
+  Face treads_seen_from_behind() const {
+    return {.band = {0.0, std::min(kEndBand_m, 0.5 * model_.depth_m)},
+            .place = [this](const StepPoint& p) { return at_tread(p).u; },
+            .side = [this](const StepPoint& p) { return at_tread(p).v; },
+            .beyond = [](const StepPoint& p) { return -p.z; },
+            .reach = reach_};
+  }
+
+  // Like the nosing, but what stands in the way of the face (a post, a bystander) says nothing about its end.
+  std::optional<Estimate> measure_end(double end, const Face& face) const {
     const double outward = end > sides_.middle() ? 1.0 : -1.0;
     const double inside = std::min(kEndReach_m, 0.5 * sides_.length());
-    const Interval band{std::max(visible_bottom(), -kEndBand_m), 0.0};
-    if (!(band.length() > 0.0)) return std::nullopt;
-    EdgeStrips rows(band, kRow_m);
-    EdgeStrips hidden(band, kRow_m);
+    if (!(face.band.length() > 0.0)) return std::nullopt;
+    EdgeStrips rows(face.band, kRow_m);
+    EdgeStrips hidden(face.band, kRow_m);
     for (const StepPoint& p : points_) {
-      const StepPoint q = at_front(p);
-      const double beyond_end = outward * (q.v - end);
+      const double v = face.side(p);
+      const double beyond_end = outward * (v - end);
       if (beyond_end < -inside || beyond_end > kEndReach_m) continue;
-      const double depth = p.u - front_u_;
-      if (depth < -kFrontReach_m) {
-        hidden.add(q.z, {outward * q.v, false});
+      const double beyond = face.beyond(p);
+      if (beyond < -face.reach) {
+        hidden.add(face.place(p), {outward * v, false});
       } else {
-        rows.add(q.z, {outward * q.v, depth < kFrontReach_m});
+        // A wall beside the step is hit where the step ends, though the line of sight would cross the face beyond.
+        const bool on = beyond < face.reach;
+        rows.add(face.place(p), {outward * (on ? p.v : v), on});
       }
     }
     for (std::size_t i = 0; i < rows.strips().size(); ++i) {
-      // A wall at the end of the front hides nothing: it is where the front ends.
+      // A wall at the end of the face hides nothing: it is where the face ends.
       double outermost = outward * end - kEndReach_m;
       for (const Crossing& c : rows.strips()[i])
         if (c.on) outermost = std::max(outermost, c.place);
@@ -468,25 +497,27 @@ class StepSurvey {
 
   std::optional<Estimate> end_of_level(double level, bool to_left) const {
     constexpr double kBin_m = 0.02;
-    constexpr double kThin = 0.25;
+    constexpr double kThin = 0.5;
     constexpr double kSigma_m = 0.01;
     const double sign = to_left ? 1.0 : -1.0;
     const double middle = sides_.middle();
-    const double reach = std::abs(model_.radius_m()) + sign * middle;  // to the axis
-    std::vector<double> areas(static_cast<std::size_t>(std::max(2.0, reach / kBin_m)), 0.0);
+    const double to_axis = std::abs(model_.radius_m()) + sign * middle;
+    std::vector<double> densities(static_cast<std::size_t>(std::max(2.0, to_axis / kBin_m)), 0.0);
     for (const StepPoint& p : points_) {
       const double out = sign * (p.v - middle);
       const double depth = depth_at(p.v);
       if (out < 0.0 || depth < kBin_m || std::abs(p.z - level) > reach_ || p.u < 0.0 || p.u > depth) continue;
       const auto bin = static_cast<std::size_t>(out / kBin_m);
-      if (bin < areas.size()) areas[bin] += 1.0 / depth;
+      if (bin < densities.size()) densities[bin] += 1.0 / depth;
     }
-    const double usual = median({areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>((areas.size() + 1) / 2)});
-    if (!(usual > 0.0)) return std::nullopt;
-    for (std::size_t bin = 0; bin + 1 < areas.size(); ++bin)
-      if (areas[bin] < kThin * usual && areas[bin + 1] < kThin * usual)
-        return bin == 0 ? std::nullopt
-                        : std::optional(Estimate{middle + sign * static_cast<double>(bin) * kBin_m, kSigma_m});
+    const auto half_way = densities.begin() + static_cast<std::ptrdiff_t>((densities.size() + 1) / 2);
+    const double thin = kThin * median({densities.begin(), half_way});
+    for (std::size_t bin = 1; bin + 1 < densities.size(); ++bin) {
+      if (densities[bin] >= thin || densities[bin + 1] >= thin) continue;
+      const double share = (densities[bin - 1] - thin) / (densities[bin - 1] - densities[bin]);
+      return Estimate{middle + sign * (static_cast<double>(bin) - 0.5 + std::clamp(share, 0.0, 1.0)) * kBin_m,
+                      kSigma_m};
+    }
     return std::nullopt;
   }
 
