@@ -155,6 +155,24 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
       .real("min_contrast", joint_fit.measurement.min_contrast, kPlain, {0, 1000},
             "density of points on a front or surface against that around it");
 
+  detect::RailingOptions& railing = detector.railing;
+  Section(table, "detector.railing")
+      .on_off("enabled", railing.enabled, "look for railings; they decide on which side the anchor is")
+      .real("max_side_distance", railing.max_side_distance_m, kMillimetre, {1, 1000},
+            "of handrail and balusters from the end of the steps")
+      .real("min_handrail_height", railing.min_handrail_height_m, kMillimetre, {100, 3000},
+            "of a handrail above the line of nosings")
+      .real("max_handrail_height", railing.max_handrail_height_m, kMillimetre, {100, 3000}, "likewise")
+      .real("max_handrail_angle", railing.max_handrail_angle_rad, kDegree, {1, 45},
+            "of a handrail against the line of nosings")
+      .real("max_baluster_angle", railing.max_baluster_angle_rad, kDegree, {1, 45},
+            "of a baluster against the vertical")
+      .real("max_thickness", railing.max_thickness_m, kMillimetre, {10, 1000},
+            "of a handrail or a baluster; what is thicker is a wall or a person")
+      .real("min_handrail_length", railing.min_handrail_length_m, kMillimetre, {100, 10000},
+            "that must be seen of a handrail")
+      .whole("min_balusters", railing.min_balusters, 2, 100, "so many in a row are a railing without a handrail");
+
   Section(table, "detector.localisation")
       .whole("max_hidden_steps", detector.localisation.max_hidden_steps, 0, 100,
              "steps that may be added between the lowest seen one and the floor");

@@ -67,6 +67,16 @@ FittedStairway grounded(FittedStairway stairway, const LocalisationOptions& opti
   return stairway;
 }
 
+AnchorSide anchor_side(const Railing& railing) {
+  if (railing.left == railing.right) return AnchorSide::Middle;
+  return railing.left ? AnchorSide::Left : AnchorSide::Right;
+}
+
+Eigen::Vector3d anchor(const Nosing& nosing, AnchorSide side) {
+  if (side == AnchorSide::Middle) return 0.5 * (nosing.left + nosing.right);
+  return side == AnchorSide::Left ? nosing.left : nosing.right;
+}
+
 }  // namespace
 
 std::string LocalisationOptions::problem() const {
@@ -132,8 +142,10 @@ Stairway localise(const FittedStairway& fitted, const LocalisationOptions& optio
   }
   const Nosing& meeting =
       stairway.direction == StairwayDirection::Ascending ? stairway.nosings.front() : stairway.nosings.back();
-  stairway.anchor_side = AnchorSide::Middle;
-  stairway.anchor = 0.5 * (meeting.left + meeting.right);
+  stairway.railing_left = placed.railing.left;
+  stairway.railing_right = placed.railing.right;
+  stairway.anchor_side = anchor_side(placed.railing);
+  stairway.anchor = anchor(meeting, stairway.anchor_side);
   return stairway;
 }
 

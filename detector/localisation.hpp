@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "detector/competition.hpp"
+#include "detector/railing.hpp"
 #include "detector/stairway.hpp"
 
 namespace stairway::detect {
@@ -27,6 +28,7 @@ struct FittedStairway {
   View view = View::FromBelow;
   double score = 0.0;  ///< eq 2
   int evidence = 0;    ///< parts, or measurements of steps, that bear it out
+  Railing railing;
 };
 
 /// What the parts of a graph say about the stairway's ends.
@@ -40,6 +42,9 @@ std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stair
 ///
 /// An ascending stairway that seems to begin above the ground (z = 0) is continued down to it; steps at or below it are
 /// dropped. A descending one is continued up to it: its last nosing is the edge of the floor the robot stands on.
+///
+/// The anchor is the end of the nosing where the one railing is seen, for what is seen is not hidden; its middle when
+/// railings are seen on both sides or on none.
 ///
 /// Method: Westfechtel et al. 2018, section "Localization Using a Dynamic Anchor".
 Stairway localise(const FittedStairway& fitted, const LocalisationOptions& options = {});

@@ -75,8 +75,9 @@ std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const std::vec
 
 std::string DetectorOptions::problem() const {
   if (!(voxel_m > 0.0)) return "voxel_m must be greater than 0";
-  for (const std::string& problem : {segmentation.problem(), plane_finder.problem(), fragment_merging.problem(),
-                                     competition.problem(), joint_fit.problem(), localisation.problem()})
+  for (const std::string& problem :
+       {segmentation.problem(), plane_finder.problem(), fragment_merging.problem(), competition.problem(),
+        joint_fit.problem(), railing.problem(), localisation.problem()})
     if (!problem.empty()) return problem;
   return {};
 }
@@ -105,9 +106,13 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
   } else {
     for (const Winner& winner : competition.winners) fitted.push_back(from_parts(winner, parts));
   }
+  begin_stage("railing");
+  fitted = without_duplicates(std::move(fitted));
+  for (FittedStairway& stairway : fitted)
+    stairway.railing =
+        find_railing(thinned, stairway.model, stairway.sides, stairway.first, stairway.last, options.railing);
   begin_stage("localisation");
-  for (const FittedStairway& stairway : without_duplicates(std::move(fitted)))
-    detection.stairways.push_back(localise(stairway, options.localisation));
+  for (const FittedStairway& stairway : fitted) detection.stairways.push_back(localise(stairway, options.localisation));
   return detection;
 }
 

@@ -9,6 +9,7 @@
 #include "detector/joint_fit.hpp"
 #include "detector/localisation.hpp"
 #include "detector/plane_finder.hpp"
+#include "detector/railing.hpp"
 #include "detector/segmentation.hpp"
 #include "detector/stage_listener.hpp"
 #include "detector/stairway.hpp"
@@ -23,6 +24,7 @@ struct DetectorOptions {
   FragmentMergingOptions fragment_merging;
   CompetitionOptions competition;
   JointFitOptions joint_fit;
+  RailingOptions railing;
   LocalisationOptions localisation;
 
   /// First problem found, worded for the person who set it; empty when usable.

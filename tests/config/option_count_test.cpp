@@ -53,7 +53,7 @@ TEST(Options, every_member_has_a_key) {
       {"simulate", count_members<SimulationOptions>(), 0},
       {"mount", count_members<scan::MountOptions>(), 0},
       {"sweep", count_members<scan::SweepOptions>() + count_members<scan::AngleTrackOptions>(), 1},
-      {"detector", count_members<DetectorOptions>(), 6},
+      {"detector", count_members<DetectorOptions>(), 7},
       {"detector.segmentation", count_members<SegmentationOptions>(), 4},
       {"detector.normals", count_members<NormalOptions>(), 0},
       {"detector.region_growing", count_members<RegionGrowingOptions>(), 0},
@@ -67,6 +67,7 @@ TEST(Options, every_member_has_a_key) {
       {"detector.extension", count_members<ExtensionOptions>(), 0},
       {"detector.confirmation", count_members<ConfirmationOptions>(), 0},
       {"detector.joint_fit", count_members<JointFitOptions>() + count_members<StepMeasurementOptions>(), 1},
+      {"detector.railing", count_members<RailingOptions>(), 0},
       {"detector.localisation", count_members<LocalisationOptions>(), 0},
   };
   for (const Case& entry : cases) EXPECT_EQ(keys_of(entry.section), entry.members - entry.nested) << entry.section;

@@ -119,7 +119,7 @@ TEST_F(DetectorProperties, tells_the_stages_in_order) {
   std::vector<std::string> stages;
   detect_stairways(room().cloud, {}, [&](std::string_view stage) { stages.emplace_back(stage); });
   EXPECT_EQ(stages, (std::vector<std::string>{"voxel_grid", "normals", "segmentation", "plane_finder", "stair_graph",
-                                              "fit", "localisation"}));
+                                              "fit", "railing", "localisation"}));
 }
 
 }  // namespace

@@ -24,6 +24,23 @@ TEST(Localisation, places_the_anchor_at_the_top_front_of_the_first_step) {
   EXPECT_NEAR(stairway.pitch(), std::atan2(0.17, 0.29), 1e-12);
 }
 
+TEST(Localisation, anchors_the_stairway_at_the_end_where_a_railing_shows_that_it_is_whole) {
+  FittedStairway stairway = fitted(0, 9);
+  const auto expect_anchor = [&](AnchorSide side, double y) {
+    const Stairway result = localise(stairway);
+    EXPECT_EQ(result.anchor_side, side);
+    EXPECT_NEAR(result.anchor.y(), y, 1e-12);
+    EXPECT_EQ(result.railing_left, stairway.railing.left);
+    EXPECT_EQ(result.railing_right, stairway.railing.right);
+  };
+  stairway.railing = {.left = true, .right = false};
+  expect_anchor(AnchorSide::Left, 0.6);
+  stairway.railing = {.left = false, .right = true};
+  expect_anchor(AnchorSide::Right, -0.6);
+  stairway.railing = {.left = true, .right = true};
+  expect_anchor(AnchorSide::Middle, 0.0);
+}
+
 TEST(Localisation, continues_a_stairway_down_to_the_ground) {
   const Stairway stairway = localise(fitted(3, 9));
   EXPECT_EQ(stairway.nosings.size(), 10U);

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detector/railing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "detector/baluster_search.hpp"
+#include "detector/flight_frame.hpp"
+#include "detector/handrail_search.hpp"
+
+namespace stairway::detect {
+namespace {
+
+constexpr double kEndSteps = 1.0;  // railings may begin before the first nosing and end behind the last
+constexpr double kLowest_m = 0.1;  // balusters are looked for above the treads' own noise
+
+// The points beside one end of the steps; `along`, how far beyond the end, above the nosings.
+std::vector<Eigen::Vector3d> beside(const std::vector<FlightPoint>& points, const StairModel& model, double outward,
+                                    double end, double reach) {
+  std::vector<Eigen::Vector3d> result;
+  for (const FlightPoint& p : points) {
+    const double beyond = outward * (p.side_m - end);
+    if (std::abs(beyond) <= reach) result.emplace_back(p.step * model.depth_m, beyond, p.above_m);
+  }
+  return result;
+}
+
+bool has_railing(const std::vector<Eigen::Vector3d>& points, const RailingOptions& options) {
+  return has_handrail(points, options) || count_balusters(points, options) >= options.min_balusters;
+}
+
+}  // namespace
+
+std::string RailingOptions::problem() const {
+  if (!(max_side_distance_m > 0.0)) return "max_side_distance must be greater than 0";
+  if (!(0.0 < min_handrail_height_m && min_handrail_height_m < max_handrail_height_m))
+    return "handrail heights must satisfy 0 < minimum < maximum";
+  if (!(max_handrail_angle_rad > 0.0 && max_baluster_angle_rad > 0.0)) return "the angles must be greater than 0";
+  if (!(max_thickness_m > 0.0)) return "max_thickness must be greater than 0";
+  if (!(min_handrail_length_m > 0.0)) return "min_handrail_length must be greater than 0";
+  if (min_balusters < 2) return "min_balusters must be at least 2";
+  return {};
+}
+
+Railing find_railing(const scan::PointCloud& cloud, const StairModel& model, const Interval& sides, int first, int last,
+                     const RailingOptions& options) {
+  if (!options.enabled) return {};
+  const double reach = options.max_side_distance_m + options.max_thickness_m;
+  const double highest = options.max_handrail_height_m + options.max_thickness_m;
+  std::vector<FlightPoint> points;
+  for (const Eigen::Vector3f& point : cloud.points) {
+    const FlightPoint p = to_flight(model, point.cast<double>());
+    if (p.step >= first - kEndSteps && p.step <= last + kEndSteps && p.above_m >= kLowest_m && p.above_m <= highest &&
+        p.side_m >= sides.low - reach && p.side_m <= sides.high + reach)
+      points.push_back(p);
+  }
+  return {.left = has_railing(beside(points, model, +1.0, sides.high, reach), options),
+          .right = has_railing(beside(points, model, -1.0, sides.low, reach), options)};
+}
+
+}  // namespace stairway::detect
