@@ -3,7 +3,10 @@
 #include "detector/competition.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 namespace stairway::detect {
 namespace {
@@ -124,10 +127,29 @@ std::string CompetitionOptions::problem() const {
   return {};
 }
 
+namespace {
+
+// What the rule is about and what the reader can do.
+std::string advice(const std::string& rule) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kAdvice{{
+      {"too-few-steps", ", too few: bring more of the flight into view"},
+      {"slope-out-of-range", ", flatter or steeper than stairs: a ramp, a ladder, or a cloud that is not level"},
+      {"step-size-out-of-range", " of a height or depth that stairs do not have: are lengths in metres?"},
+      {"steps-missing", " with gaps between them: furniture, or a flight that something hides"},
+      {"too-uncertain", ", too uncertain to climb: go nearer or bring more of them into view"},
+      {"no-points-on-steps", " only: planes lie like those of a flight, but its steps show no points"},
+  }};
+  for (const auto& [name, text] : kAdvice)
+    if (name == rule) return std::string(text);
+  return {};
+}
+
+}  // namespace
+
 Rejection rejection(const std::string& rule, const StairModel& model, int seen_steps,
                     const ConfirmationOptions& confirmation) {
   return {.reason = rule,
-          .detail = "the best candidate shows " + std::to_string(seen_steps) + " steps",
+          .detail = "the best candidate shows " + std::to_string(seen_steps) + " steps" + advice(rule),
           .figures = {{"steps", seen_steps},
                       {"min_steps", confirmation.min_steps},
                       {"step_height", model.height_m},

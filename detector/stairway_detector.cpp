@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "detector/stairway_detector.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <utility>
 
+#include "detector/cloud_faults.hpp"
 #include "detector/voxel_grid.hpp"
 
 namespace stairway::detect {
@@ -23,18 +25,32 @@ std::vector<StairPart> find_parts(const scan::PointCloud& cloud, const std::vect
   return parts;
 }
 
-// Why not even a candidate came about.
-Rejection nothing_to_start_from(std::size_t points, std::size_t regions, const std::vector<StairPart>& parts) {
-  if (points == 0) return {.reason = "empty-cloud", .detail = "the cloud has no finite point", .figures = {}};
-  double risers = 0.0;
-  double treads = 0.0;
-  for (const StairPart& part : parts) (part.kind == StairPart::Kind::Tread ? treads : risers) += 1.0;
-  return {.reason = "no-step-pair",
-          .detail = "no two risers or treads lie to each other as those of neighbouring steps do",
-          .figures = {{"points", static_cast<double>(points)},
-                      {"planes", static_cast<double>(regions)},
-                      {"risers", risers},
-                      {"treads", treads}}};
+// What is wrong with the whole cloud explains more than how its best candidate failed, and that more than that there
+// was none.
+void explain_silence(std::optional<Rejection> fault, std::size_t regions, const std::vector<StairPart>& parts,
+                     std::vector<Rejection>& rejected) {
+  if (fault) rejected.insert(rejected.begin(), std::move(*fault));
+  if (!rejected.empty()) return;
+  const auto treads = static_cast<double>(std::count_if(
+      parts.begin(), parts.end(), [](const StairPart& part) { return part.kind == StairPart::Kind::Tread; }));
+  rejected.push_back({.reason = "no-step-pair",
+                      .detail = "no two risers or treads lie to each other as those of neighbouring steps do: are "
+                                "stairs in view, z upwards and lengths in metres?",
+                      .figures = {{"planes", static_cast<double>(regions)},
+                                  {"risers", static_cast<double>(parts.size()) - treads},
+                                  {"treads", treads}}});
+}
+
+int min_points(const SegmentationOptions& segmentation) {
+  switch (segmentation.method) {
+    case SegmentationMethod::SplitAndMerge:
+      return segmentation.split_and_merge.min_points;
+    case SegmentationMethod::VoxelSac:
+      return segmentation.voxel_sac.min_points;
+    case SegmentationMethod::RegionGrowing:
+      break;
+  }
+  return segmentation.region_growing.min_points;
 }
 
 FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
@@ -98,14 +114,15 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
   begin_stage("fit");
   Detection detection;
   if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
-  if (competition.winners.empty() && !competition.runner_up)
-    detection.rejected.push_back(nothing_to_start_from(thinned.points.size(), regions.size(), parts));
   std::vector<FittedStairway> fitted;
   if (options.competition.strategy == Strategy::Joint) {
     fitted = refine(cloud, competition.winners, parts, options, detection);
   } else {
     for (const Winner& winner : competition.winners) fitted.push_back(from_parts(winner, parts));
   }
+  if (fitted.empty())
+    explain_silence(cloud_fault(cloud, thinned, regions, min_points(options.segmentation)), regions.size(), parts,
+                    detection.rejected);
   begin_stage("railing");
   fitted = without_duplicates(std::move(fitted));
   for (FittedStairway& stairway : fitted)

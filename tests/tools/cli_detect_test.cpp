@@ -212,6 +212,20 @@ TEST(DetectVerb, missing_floor_is_a_rejection_and_no_failure) {
   EXPECT_EQ(answer["rejected"][0]["reason"], "floor-not-found");
 }
 
+TEST(DetectVerb, cloud_in_millimetres_is_told_from_an_empty_place) {
+  const TemporaryFolder folder;
+  scan::PointCloud cloud = read_cloud(flight_cloud());
+  for (Eigen::Vector3f& p : cloud.points) p *= 1000.0F;
+  ASSERT_TRUE(ipc::write_pcd(folder.path("mm.pcd"), cloud));
+  const auto outcome = detect({folder.path("mm.pcd")});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json answer = json_lines(outcome.out)[0];
+  EXPECT_TRUE(answer["stairways"].empty());
+  ASSERT_FALSE(answer["rejected"].empty());
+  EXPECT_EQ(answer["rejected"][0]["reason"], "units-suspicious");
+  EXPECT_GT(answer["rejected"][0]["figures"]["extent"], 1000.0);
+}
+
 TEST(DetectVerb, levels_a_tilted_cloud_by_the_floor_by_angles_and_by_gravity) {
   const TemporaryFolder folder;
   const std::string tilted = folder.path("tilted.pcd");
