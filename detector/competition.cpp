@@ -23,7 +23,10 @@ Interval starting_sides(const Initialisation& start, const std::vector<StairPart
 class Competition {
  public:
   Competition(const std::vector<StairPart>& parts, const CompetitionOptions& options)
-      : parts_(parts), options_(options), taken_(region_count(parts), false) {}
+      : parts_(parts),
+        options_(options),
+        grid_(parts, options.extension.search_radius_m),
+        taken_(region_count(parts), false) {}
 
   CompetitionResult run() {
     const std::vector<Initialisation> starts = initialise_graphs(parts_, options_.initialisation);
@@ -57,7 +60,7 @@ class Competition {
     if (is_taken(start.parts[0]) || is_taken(start.parts[1])) return std::nullopt;
     Winner candidate{.graph = {}, .view = view_of(start.model)};
     candidate.graph =
-        extend_graph(start.model, starting_sides(start, parts_), parts_, candidate.view, options_.extension);
+        extend_graph(start.model, starting_sides(start, parts_), parts_, grid_, candidate.view, options_.extension);
     if (!is_free(candidate.graph)) return std::nullopt;
     if (const std::string rule = broken_rule(candidate.graph, confirmation_for(candidate.view)); !rule.empty()) {
       remember(rule, candidate.graph);
@@ -77,7 +80,7 @@ class Competition {
 
   void optimise(Winner& winner) const {
     const StairFit fit = fit_stairway(winner.graph, parts_, winner.view);
-    StairGraph extended = extend_graph(fit.model, winner.graph.sides, parts_, winner.view, options_.extension);
+    StairGraph extended = extend_graph(fit.model, winner.graph.sides, parts_, grid_, winner.view, options_.extension);
     if (!is_free(extended) || !broken_rule(extended, confirmation_for(winner.view)).empty() ||
         extended.seen_steps() < winner.graph.seen_steps())
       return;
@@ -114,6 +117,7 @@ class Competition {
 
   const std::vector<StairPart>& parts_;
   const CompetitionOptions& options_;
+  const PartGrid grid_;
   std::vector<bool> taken_;
   CompetitionResult result_;
   int most_steps_ = 0;

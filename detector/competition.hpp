@@ -47,7 +47,7 @@ struct CompetitionResult {
 };
 
 /// Initialises, extends, confirms and lets the graphs compete for their parts.
-/// Cost: O(I S P) for I initialisations, S steps and P parts.
+/// Cost: O(I S k) for I initialisations, S steps and k parts around each.
 CompetitionResult compete(const std::vector<StairPart>& parts, const CompetitionOptions& options = {});
 
 }  // namespace stairway::detect

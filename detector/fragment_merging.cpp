@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "detector/extents.hpp"
+#include "detector/part_grid.hpp"
 
 namespace stairway::detect {
 namespace {
@@ -44,6 +46,57 @@ bool belong_together(const StairPart& a, const StairPart& b, const FragmentMergi
              options.max_gap_m;
 }
 
+Eigen::Vector2d plan(const Eigen::Vector3d& p) { return p.head<2>(); }
+
+// The radius, seen from above, of a circle about the centroid that holds the outline and any box about it.
+double reach(const StairPart& part) {
+  double farthest = 0.0;
+  for (const Eigen::Vector3d* p : {&part.end_a, &part.end_b, &part.front, &part.back})
+    farthest = std::max(farthest, plan(*p - part.centroid).norm());
+  return std::numbers::sqrt2 * farthest;
+}
+
+// Which fragments may be near enough to one to belong to it.
+class Neighbourhood {
+ public:
+  Neighbourhood(const std::vector<std::optional<StairPart>>& fragments, const FragmentMergingOptions& options)
+      : numbers_(numbers_of_parts(fragments)),
+        grid_(places(fragments, numbers_), kCell_m),
+        distance_m_(options.max_offset_m + options.max_gap_m) {
+    for (const std::size_t number : numbers_) largest_m_ = std::max(largest_m_, reach(*fragments[number]));
+  }
+
+  /// In rising order.
+  std::vector<std::size_t> around(const StairPart& part) const {
+    std::vector<std::size_t> found;
+    grid_.around(plan(part.centroid), reach(part) + largest_m_ + distance_m_, found);
+    for (std::size_t& number : found) number = numbers_[number];
+    return found;
+  }
+
+ private:
+  static constexpr double kCell_m = 1.0;
+
+  static std::vector<std::size_t> numbers_of_parts(const std::vector<std::optional<StairPart>>& fragments) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < fragments.size(); ++i)
+      if (fragments[i]) numbers.push_back(i);
+    return numbers;
+  }
+
+  static std::vector<Eigen::Vector2d> places(const std::vector<std::optional<StairPart>>& fragments,
+                                             const std::vector<std::size_t>& numbers) {
+    std::vector<Eigen::Vector2d> result;
+    for (const std::size_t number : numbers) result.push_back(plan(fragments[number]->centroid));
+    return result;
+  }
+
+  std::vector<std::size_t> numbers_;
+  PartGrid grid_;
+  double distance_m_;
+  double largest_m_ = 0.0;
+};
+
 }  // namespace
 
 std::string FragmentMergingOptions::problem() const {
@@ -64,11 +117,14 @@ std::vector<PlaneRegion> merge_fragments(const scan::PointCloud& cloud, std::vec
   parts.reserve(regions.size());
   for (const PlaneRegion& region : regions) parts.push_back(find_stair_part(cloud, region, any_width));
 
+  const Neighbourhood neighbourhood(parts, options);
   for (std::size_t i = 0; i < regions.size(); ++i) {
     bool grew = parts[i].has_value();
     while (grew) {
       grew = false;
-      for (std::size_t k = i + 1; k < regions.size(); ++k) {
+      std::vector<std::size_t> near = neighbourhood.around(*parts[i]);
+      for (auto next = std::upper_bound(near.begin(), near.end(), i); next != near.end();) {
+        const std::size_t k = *next++;
         if (!parts[k] || !belong_together(*parts[i], *parts[k], options)) continue;
         std::vector<std::uint32_t> points = regions[i].points;
         points.insert(points.end(), regions[k].points.begin(), regions[k].points.end());
@@ -80,6 +136,8 @@ std::vector<PlaneRegion> merge_fragments(const scan::PointCloud& cloud, std::vec
         parts[k].reset();
         regions[k].points.clear();
         grew = true;
+        near = neighbourhood.around(*parts[i]);
+        next = std::upper_bound(near.begin(), near.end(), k);
       }
     }
   }

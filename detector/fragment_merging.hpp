@@ -26,7 +26,7 @@ struct FragmentMergingOptions {
 /// Only regions that pass the plane finder (whatever their width) are joined, and only into ones that still do.
 ///
 /// @return all regions, joined ones in the place of their first member.
-/// Cost: O(F^2) in the number of riser and tread shaped regions. Not in the paper; see docs/architecture.md.
+/// Cost: O(F k) for F riser and tread shaped regions with k around each. Not in the paper; see docs/architecture.md.
 std::vector<PlaneRegion> merge_fragments(const scan::PointCloud& cloud, std::vector<PlaneRegion> regions,
                                          const PlaneFinderOptions& plane_finder,
                                          const FragmentMergingOptions& options = {});

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "detector/deviation.hpp"
+#include "detector/part_grid.hpp"
 #include "detector/spiral_initialisation.hpp"
 
 namespace stairway::detect {
@@ -112,9 +113,12 @@ std::vector<Initialisation> initialise_graphs(const std::vector<StairPart>& part
                                               const InitialisationOptions& options) {
   // Edges of half-hidden parts misjudge h; the limits proper are put to the models.
   constexpr double kEdgeSlack_m = 0.15;
+  const PartGrid grid(parts, options.max_pair_distance_m);
+  std::vector<std::size_t> near;
   std::vector<Initialisation> initialisations;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (std::size_t k = 0; k < parts.size(); ++k) {
+    grid.around(parts[i].centroid.head<2>(), options.max_pair_distance_m, near);
+    for (const std::size_t k : near) {
       const Pair pair{parts[i], parts[k]};
       const double rise = pair.upper.centroid.z() - pair.lower.centroid.z();
       if (i == k || pair.lower.kind != pair.upper.kind || rise < 0.0 ||

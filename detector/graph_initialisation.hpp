@@ -35,7 +35,7 @@ struct Initialisation {
 /// Two risers give up to two: h from their top or from their bottom edges. Two treads give up to four: d from their
 /// front or back edges, s from the first or the second. Each pair may start spirals as well, see suggested_spirals().
 ///
-/// @return initialisations within the limits, ordered by their parts. Cost: O(P^2) in the number of parts.
+/// @return initialisations within the limits, ordered by their parts. Cost: O(P k) for k parts around each of P.
 /// Method: Westfechtel et al. 2018, section "Graph Initialization".
 std::vector<Initialisation> initialise_graphs(const std::vector<StairPart>& parts,
                                               const InitialisationOptions& options = {});

@@ -16,13 +16,15 @@ bool complies(const StairModel& model, int number, const StairPart& part, View v
 
 class Extension {
  public:
-  Extension(StairGraph& graph, const std::vector<StairPart>& parts, View view, const ExtensionOptions& options)
-      : graph_(graph), parts_(parts), view_(view), options_(options), taken_(parts.size(), false) {}
+  Extension(StairGraph& graph, const std::vector<StairPart>& parts, const PartGrid& grid, View view,
+            const ExtensionOptions& options)
+      : graph_(graph), parts_(parts), grid_(grid), view_(view), options_(options), taken_(parts.size(), false) {}
 
   bool visit(int number) {
     const StepFrame step = graph_.model.step(number);
     bool found = false;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
+    grid_.around(step.nosing.head<2>(), options_.search_radius_m, near_);
+    for (const std::size_t i : near_) {
       const StairPart& part = parts_[i];
       if (taken_[i] || (part.centroid - step.nosing).head<2>().squaredNorm() > square(options_.search_radius_m) ||
           !complies(graph_.model, number, part, view_, options_))
@@ -48,8 +50,10 @@ class Extension {
 
   StairGraph& graph_;
   const std::vector<StairPart>& parts_;
+  const PartGrid& grid_;
   View view_;
   const ExtensionOptions& options_;
+  std::vector<std::size_t> near_;
   std::vector<bool> taken_;
 };
 
@@ -73,8 +77,13 @@ std::string ExtensionOptions::problem() const {
 
 StairGraph extend_graph(const StairModel& model, const Interval& sides, const std::vector<StairPart>& parts, View view,
                         const ExtensionOptions& options) {
+  return extend_graph(model, sides, parts, PartGrid(parts, options.search_radius_m), view, options);
+}
+
+StairGraph extend_graph(const StairModel& model, const Interval& sides, const std::vector<StairPart>& parts,
+                        const PartGrid& grid, View view, const ExtensionOptions& options) {
   StairGraph graph{.model = model, .parts = {}, .sides = sides};
-  Extension extension(graph, parts, view, options);
+  Extension extension(graph, parts, grid, view, options);
   extension.visit(0);
   extension.go(+1);
   extension.go(-1);

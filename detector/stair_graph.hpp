@@ -9,6 +9,7 @@
 
 #include "detector/deviation.hpp"
 #include "detector/graph_initialisation.hpp"
+#include "detector/part_grid.hpp"
 #include "detector/stair_model.hpp"
 #include "detector/stair_part.hpp"
 
@@ -49,6 +50,10 @@ struct ExtensionOptions {
 /// @return the graph; without parts when none complies.
 StairGraph extend_graph(const StairModel& model, const Interval& sides, const std::vector<StairPart>& parts, View view,
                         const ExtensionOptions& options = {});
+/// The same for many graphs over the same parts.
+/// @param grid  of the parts.
+StairGraph extend_graph(const StairModel& model, const Interval& sides, const std::vector<StairPart>& parts,
+                        const PartGrid& grid, View view, const ExtensionOptions& options = {});
 
 struct ConfirmationOptions {
   double min_slope_rad = std::numbers::pi / 9;       ///< 20 deg

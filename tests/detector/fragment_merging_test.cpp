@@ -32,6 +32,18 @@ TEST(FragmentMerging, joins_a_riser_torn_by_a_post) {
   EXPECT_EQ(regions[0].points.size(), pieces.cloud.points.size());
 }
 
+TEST(FragmentMerging, joins_the_pieces_of_wide_risers_all_over_a_building) {
+  constexpr int kRisers = 12;
+  Pieces pieces;
+  for (int piece = 0; piece < 4; ++piece)  // the pieces of one riser are far apart in the list
+    for (int riser = 0; riser < kRisers; ++riser)
+      pieces.add({-20.0 + 3.5 * riser, 1.1 * (piece * 3 % 4) - 7.0 * (riser % 3), 0}, {0, 1.0, 0}, {0, 0, 0.17});
+  const std::vector<PlaneRegion> regions = pieces.merged();
+  ASSERT_EQ(regions.size(), static_cast<std::size_t>(kRisers));
+  for (const PlaneRegion& region : regions)
+    EXPECT_EQ(region.points.size(), pieces.cloud.points.size() / static_cast<std::size_t>(kRisers));
+}
+
 TEST(FragmentMerging, keeps_neighbouring_steps_apart) {
   Pieces pieces;
   pieces.add({2.00, -0.6, 0.00}, {0, 1.2, 0}, {0, 0, 0.17});
