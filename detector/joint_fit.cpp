@@ -13,7 +13,7 @@ namespace stairway::detect {
 namespace {
 
 // Changes of the model from where a pass of the fit begins, so that all are small and of like size.
-enum Unknown { kAlong, kDepth, kHeight, kRise, kOverhang, kThickness, kHeading, kTurn, kUnknowns };
+enum Unknown { kAlong, kDepth, kHeight, kRise, kOverhang, kThickness, kHeading, kTurn, kTopBias, kUnknowns };
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
 StairModel moved(const StairModel& start, const Unknowns& change) {
@@ -94,6 +94,7 @@ constexpr double kUnmeasuredEnd_m = 0.03;  // an end known from the parts alone
 constexpr double kGraphSigma_m = 0.010;
 constexpr double kGraphSigma_rad = 0.03;
 constexpr double kHeadingStep_rad = 0.1;
+constexpr double kUsualTopBias_m = 0.015;
 constexpr double kUsualOverhang_m = 0.015;
 constexpr double kMostOverhang_m = 0.06;
 constexpr double kUsualThickness_m = 0.04;
@@ -101,7 +102,8 @@ constexpr double kUsualThickness_m = 0.04;
 // How far a measured step lies from that of a model, in sigmas.
 class StepResiduals {
  public:
-  StepResiduals(const StairModel& model, std::vector<double>& residuals) : model_(model), residuals_(residuals) {}
+  StepResiduals(const StairModel& model, double top_bias_m, std::vector<double>& residuals)
+      : model_(model), top_bias_m_(top_bias_m), residuals_(residuals) {}
 
   void add(const StepMeasurement& step) {
     const StepFrame predicted = model_.step(step.number);
@@ -120,7 +122,8 @@ class StepResiduals {
     // Over a front the tread itself, where it is seen, tells the height better.
     if (step.nosing && !(step.nosing->over_a_front && step.surface)) {
       const StepPoint p = predicted.to_step(step.frame.from_step(step.nosing->at));
-      const double off = p.z * step.nosing->along_u - p.u * step.nosing->along_z;
+      const double bias = step.nosing->without_sight ? top_bias_m_ : 0.0;
+      const double off = (p.z - bias) * step.nosing->along_u - p.u * step.nosing->along_z;
       add(off, step.nosing->sigma_m, kHeightFloor_m);
     }
   }
@@ -129,6 +132,7 @@ class StepResiduals {
   void add(double residual, double sigma, double floor) { residuals_.push_back(residual / std::hypot(sigma, floor)); }
 
   const StairModel& model_;
+  double top_bias_m_;
   std::vector<double>& residuals_;
 };
 
@@ -207,6 +211,7 @@ class JointFitter {
               [](const StepMeasurement& a, const StepMeasurement& b) { return a.number < b.number; });
     keep_longest_run();
     leave_lower_floor();
+    leave_landing();
     if (steps_.size() < 2) return false;
     fit_.first = steps_.front().number;
     fit_.last = steps_.back().number;
@@ -214,6 +219,17 @@ class JointFitter {
     fit_.measurements = 0;
     for (const StepMeasurement& step : steps_) fit_.measurements += step.count();
     return true;
+  }
+
+  // A flight may begin on a landing, which looks like a tread, as may the ceiling below it.
+  void leave_landing() {
+    fit_.on_landing = false;
+    if (view_ == View::FromAbove) return;
+    const auto half = static_cast<std::ptrdiff_t>(steps_.size() / 2);
+    const auto landing = std::find_if(std::make_reverse_iterator(steps_.begin() + half), steps_.rend(),
+                                      [](const StepMeasurement& step) { return step.is_landing; });
+    fit_.on_landing = landing != steps_.rend();
+    steps_.erase(steps_.begin(), landing.base());
   }
 
   // Below a descent the floor goes on where the next tread would be; unlike a tread it has no edge.
@@ -250,7 +266,8 @@ class JointFitter {
     rows.push_back(model.overhang_m / kUsualOverhang_m);
     rows.push_back((model.tread_thickness_m - kUsualThickness_m) / kUsualThickness_m);
     rows.push_back(change[kHeading] / kHeadingStep_rad);
-    StepResiduals of_steps(model, rows);
+    rows.push_back(change[kTopBias] / kUsualTopBias_m);
+    StepResiduals of_steps(model, change[kTopBias], rows);
     for (const StepMeasurement& step : steps_) of_steps.add(step);
     return Eigen::Map<const Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size()));
   }

@@ -31,6 +31,7 @@ struct JointFit {
   double sides_sigma_m = 0.0;  ///< of its length
   int first = 0;               ///< number of the lowest step of which points were found
   int last = 0;                ///< and of the highest
+  bool on_landing = false;     ///< it begins on a floor of its own, which was seen below its lowest step
   int seen_steps = 0;          ///< how many of them have points
   int measurements = 0;        ///< fronts, treads and undersides measured on them
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "detector/statistics.hpp"
@@ -50,6 +51,23 @@ bool lies_within(const FittedStairway& small, const FittedStairway& large) {
   return 2 * inside > small.last - small.first + 1;
 }
 
+// How high the middle of `one` lies over the step of `other` at the same place.
+double height_over(const FittedStairway& one, const FittedStairway& other) {
+  const Eigen::Vector3d nosing = mid_nosing(one, (one.first + one.last) / 2);
+  const int beyond = steps_beyond(other);
+  StepPoint nearest{.u = std::numeric_limits<double>::max()};
+  for (int number = other.first - beyond; number <= other.last + beyond; ++number) {
+    const StepPoint p = other.model.step(number).to_step(nosing);
+    if (std::abs(p.u) < std::abs(nearest.u)) nearest = p;
+  }
+  return nearest.z;
+}
+
+// A flight that hangs free has steps on its underside, too, which a cloud without a sensor does not tell from treads.
+bool lies_on_top_of(const FittedStairway& one, const FittedStairway& other) {
+  return height_over(one, other) > 0.5 * other.model.height_m && 2 * one.evidence > other.evidence;
+}
+
 // The number of the step at `height_m`, if the way to it is short enough to be believed; else the one that was seen.
 int step_at(double height_m, const StairModel& model, int seen, const LocalisationOptions& options) {
   const int number = static_cast<int>(std::lround((height_m - model.nosing.z()) / model.height_m));
@@ -58,6 +76,7 @@ int step_at(double height_m, const StairModel& model, int seen, const Localisati
 
 // From the first step on the ground up, or from the edge of the ground down (the paper's extension to ground level).
 FittedStairway grounded(FittedStairway stairway, const LocalisationOptions& options) {
+  if (stairway.on_landing) return stairway;
   const StairModel& model = stairway.model;
   if (stairway.view == View::FromBelow) {
     stairway.first = std::min(step_at(kGround_m + model.height_m, model, stairway.first, options), stairway.last);
@@ -109,9 +128,13 @@ std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stair
                    [](const FittedStairway& a, const FittedStairway& b) { return a.evidence > b.evidence; });
   std::vector<FittedStairway> kept;
   for (FittedStairway& candidate : stairways) {
-    const bool known = std::any_of(kept.begin(), kept.end(),
+    const auto same = std::find_if(kept.begin(), kept.end(),
                                    [&](const FittedStairway& other) { return lies_within(candidate, other); });
-    if (!known) kept.push_back(std::move(candidate));
+    if (same == kept.end()) {
+      kept.push_back(std::move(candidate));
+    } else if (lies_on_top_of(candidate, *same)) {
+      *same = std::move(candidate);
+    }
   }
   return kept;
 }

@@ -23,8 +23,9 @@ struct FittedStairway {
   Interval sides;              ///< along left(), from the middle line of the model [m]
   double sides_sigma_m = 0.0;  ///< of its length
   FitSigmas sigmas;
-  int first = 0;  ///< number of the lowest step seen
-  int last = 0;   ///< and of the highest
+  int first = 0;            ///< number of the lowest step seen
+  int last = 0;             ///< and of the highest
+  bool on_landing = false;  ///< begins on a floor that was seen, so it is not continued to the ground
   View view = View::FromBelow;
   double score = 0.0;  ///< eq 2
   int evidence = 0;    ///< parts, or measurements of steps, that bear it out
@@ -35,7 +36,8 @@ struct FittedStairway {
 FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& parts);
 
 /// Drops every stairway of which more than half the steps lie within one with more evidence: it is the same one, found
-/// from other parts. The result is ordered by falling evidence.
+/// from other parts. Of two that lie over each other the upper one stays: the lower is the underside of its steps.
+/// The result is ordered by falling evidence.
 std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stairways);
 
 /// Turns a fit into the stairway a robot can climb: first step on the ground, ends, anchor and every nosing.

@@ -60,6 +60,7 @@ FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
           .sigmas = fit.sigmas,
           .first = fit.first,
           .last = fit.last,
+          .on_landing = fit.on_landing,
           .view = winner.view,
           .score = winner.score,
           .evidence = fit.measurements};

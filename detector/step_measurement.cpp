@@ -26,6 +26,7 @@ constexpr double kFrontReach_m = 0.07;  // a point is on a front within this dis
 constexpr double kThinnestTread_m = 0.015;
 constexpr double kThickestTread_m = 0.12;
 constexpr double kTreadMargin = 0.2;   // share of a tread at its front and back that is not measured
+constexpr double kLandingReach = 0.7;  // share of a depth before a nosing in which a landing would go on
 constexpr double kClearance_m = 0.03;  // the sensor must lie this far before a front, or above a tread, to see it
 
 double square(double value) { return value * value; }
@@ -146,6 +147,7 @@ class StepSurvey {
     if (faces_front()) measure_front();
     if (!sensor_ || sensor_->z > 0.0) measure_level(-options_.search_m, options_.search_m, result_.surface);
     if (!sensor_ || sensor_->z < 0.0) measure_level(-kThickestTread_m, -kThinnestTread_m, result_.underside);
+    result_.is_landing = result_.surface && goes_on_before();
     if (result_.front) {
       measure_nosing();
       if (sensor_) {
@@ -183,7 +185,8 @@ class StepSurvey {
     };
     for (const Eigen::Vector3d& point : points) {
       const StepPoint p = result_.frame.to_step(point);
-      bool picked = is_near(p.v, p.z) && p.u > front_u_ - margin && p.u < depth_at(p.v);
+      const double first_u = std::abs(p.z) < margin ? -kLandingReach * model_.depth_m : front_u_ - margin;
+      bool picked = is_near(p.v, p.z) && p.u > first_u && p.u < depth_at(p.v);
       if (!picked && sensor_ && faces_front() && p.u > sensor_->u + kClearance_m) {
         const StepPoint q = at_front(p);
         picked = is_near(q.v, q.z);
@@ -355,6 +358,17 @@ class StepSurvey {
     level = robust_mean(near, kFloor_m);
   }
 
+  // At the height of a tread there is nothing before its nosing.
+  bool goes_on_before() const {
+    const double near = -kTreadMargin * model_.depth_m;
+    const double far = -kLandingReach * model_.depth_m;
+    std::vector<double> places;
+    for (const StepPoint& p : points_)
+      if (p.u > far && p.u < near && beside_middle(p) && std::abs(p.z - result_.surface->value) < reach_)
+        places.push_back(p.v);
+    return places.size() >= static_cast<std::size_t>(options_.min_points) && covers(places);
+  }
+
   NosingSight sight_over(double u, double z, double sigma_m, bool over_a_front) const {
     NosingSight sight{.at = {u, sides_.middle(), z}, .sigma_m = sigma_m, .over_a_front = over_a_front};
     if (sensor_) {
@@ -371,6 +385,7 @@ class StepSurvey {
     if (!sensor_) {
       if (const std::optional<Estimate> top = top_of_front())
         result_.nosing = sight_over(front_u_, top->value, top->sigma, true);
+      if (result_.nosing) result_.nosing->without_sight = true;
       return;
     }
     EdgeStrips strips(sides_, kColumn_m);

@@ -19,10 +19,11 @@ struct Estimate {
 /// A line of sight that just passes over a nosing, in the vertical plane along the ascent of its step: the nosing lies
 /// on it, wherever along it that is.
 struct NosingSight {
-  StepPoint at;              ///< a point of the line; its v is the middle of the sides [m]
-  double along_u = 1.0;      ///< the line's unit direction
-  double along_z = 0.0;      ///< likewise
-  double sigma_m = 0.0;      ///< across the line
+  StepPoint at;                ///< a point of the line; its v is the middle of the sides [m]
+  double along_u = 1.0;        ///< the line's unit direction
+  double along_z = 0.0;        ///< likewise
+  double sigma_m = 0.0;        ///< across the line
+  bool without_sight = false;  ///< nobody knows the sensor: the highest points of a front, too high by a common amount
   bool over_a_front = true;  ///< seen from before the step, over the top of its front; else from behind, over its tread
 };
 
@@ -34,6 +35,7 @@ struct StepMeasurement {
   std::optional<Estimate> front;      ///< u of the riser, or of an open tread's front face, at `middle_v`
   std::optional<Estimate> turn;       ///< slope du/dv of that front or of the tread's edge [rad]
   std::optional<Estimate> surface;    ///< z of the tread
+  bool is_landing = false;            ///< the surface goes on before where the nosing would be: no tread, but a floor
   std::optional<Estimate> underside;  ///< z of the tread's underside
   std::optional<NosingSight> nosing;
   std::optional<Estimate> right_end;  ///< v at which the line of sight leaves the front to the right
