@@ -138,7 +138,7 @@ class StepResiduals {
 
 // The few steps in a row that most parts speak for.
 std::pair<int, int> best_supported(const StairGraph& graph) {
-  constexpr int kInARow = 4;
+  constexpr int kInARow = 5;
   std::pair<int, int> best{graph.parts.front().step, graph.parts.front().step};
   std::ptrdiff_t most = 0;
   for (auto begin = graph.parts.begin(); begin != graph.parts.end(); ++begin) {

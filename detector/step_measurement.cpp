@@ -25,8 +25,10 @@ constexpr double kMixedShare = 0.25;    // of the spot's radius, what mixed pixe
 constexpr double kFrontReach_m = 0.07;  // a point is on a front within this distance
 constexpr double kThinnestTread_m = 0.015;
 constexpr double kThickestTread_m = 0.12;
-constexpr double kTreadMargin = 0.2;   // share of a tread at its front and back that is not measured
-constexpr double kLandingReach = 0.7;  // share of a depth before a nosing in which a landing would go on
+constexpr double kTreadMargin = 0.2;  // share of a tread at its front and back that is not measured
+constexpr double kLandingNear =
+    0.7;                             // a landing goes on this share of a depth before a nosing, where no tread reaches,
+constexpr double kLandingFar = 1.5;  // and at least to here
 constexpr double kClearance_m = 0.03;  // the sensor must lie this far before a front, or above a tread, to see it
 
 double square(double value) { return value * value; }
@@ -185,7 +187,7 @@ class StepSurvey {
     };
     for (const Eigen::Vector3d& point : points) {
       const StepPoint p = result_.frame.to_step(point);
-      const double first_u = std::abs(p.z) < margin ? -kLandingReach * model_.depth_m : front_u_ - margin;
+      const double first_u = std::abs(p.z) < margin ? -kLandingFar * model_.depth_m : front_u_ - margin;
       bool picked = is_near(p.v, p.z) && p.u > first_u && p.u < depth_at(p.v);
       if (!picked && sensor_ && faces_front() && p.u > sensor_->u + kClearance_m) {
         const StepPoint q = at_front(p);
@@ -360,8 +362,8 @@ class StepSurvey {
 
   // At the height of a tread there is nothing before its nosing.
   bool goes_on_before() const {
-    const double near = -kTreadMargin * model_.depth_m;
-    const double far = -kLandingReach * model_.depth_m;
+    const double near = -kLandingNear * model_.depth_m;
+    const double far = -kLandingFar * model_.depth_m;
     std::vector<double> places;
     for (const StepPoint& p : points_)
       if (p.u > far && p.u < near && beside_middle(p) && std::abs(p.z - result_.surface->value) < reach_)
