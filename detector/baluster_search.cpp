@@ -79,7 +79,7 @@ bool is_baluster(const Cluster& cluster, const RailingOptions& options) {
 
 }  // namespace
 
-int count_balusters(std::span<const Eigen::Vector3d> points, const RailingOptions& options) {
+std::optional<double> find_balusters(std::span<const Eigen::Vector3d> points, const RailingOptions& options) {
   Cluster low;  // a handrail would join all balusters
   for (const Eigen::Vector3d& p : points)
     if (p.z() < options.min_handrail_height_m &&
@@ -90,10 +90,11 @@ int count_balusters(std::span<const Eigen::Vector3d> points, const RailingOption
     const double side = extent(cluster, 1).middle();
     if (std::abs(side) <= options.max_side_distance_m && is_baluster(cluster, options)) sides.push_back(side);
   }
-  if (sides.empty()) return 0;
+  if (sides.empty()) return std::nullopt;
   const double row = median(sides);
-  return static_cast<int>(
-      std::count_if(sides.begin(), sides.end(), [&](double side) { return std::abs(side - row) <= kRowWidth_m; }));
+  const auto in_row =
+      std::count_if(sides.begin(), sides.end(), [&](double side) { return std::abs(side - row) <= kRowWidth_m; });
+  return in_row < options.min_balusters ? std::nullopt : std::optional(row);
 }
 
 }  // namespace stairway::detect

@@ -3,16 +3,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "detector/railing.hpp"
 
 namespace stairway::detect {
 
-/// How many thin posts stand in a row along the stairway, each from knee to hand height.
+/// Looks for thin posts in a row along the stairway, each from knee to hand height.
 ///
-/// @param points  as for has_handrail().
+/// @param points  as for find_handrail().
+/// @return how far beyond the end of the steps the row runs [m], when it has min_balusters.
 /// Cost: O(n log n) in the number of points.
-int count_balusters(std::span<const Eigen::Vector3d> points, const RailingOptions& options);
+std::optional<double> find_balusters(std::span<const Eigen::Vector3d> points, const RailingOptions& options);
 
 }  // namespace stairway::detect

@@ -8,6 +8,7 @@
 
 #include "detector/extents.hpp"
 #include "detector/plane.hpp"
+#include "detector/statistics.hpp"
 
 namespace stairway::detect {
 namespace {
@@ -55,19 +56,27 @@ Interval longest_run(const std::vector<Eigen::Vector3d>& bar) {
   return longest;
 }
 
+struct Bar {
+  double beyond = 0.0;  // its middle across the flight
+  std::size_t points = 0;
+};
+
 class BarTest {
  public:
   BarTest(std::span<const Eigen::Vector3d> points, const RailingOptions& options)
       : points_(points), options_(options) {}
 
-  bool holds_bar(double beyond, double above) const {
+  std::optional<Bar> bar_at(double beyond, double above) const {
     const Section section{about(beyond, kHalfWidth_m), about(above, kHalfHeight_m)};
     std::vector<Eigen::Vector3d> bar;
     for (const Eigen::Vector3d& p : points_)
       if (section.holds(p)) bar.push_back(p);
     const Interval run = longest_run(bar);
-    if (run.length() < options_.min_handrail_length_m) return false;
-    return stands_alone(section, run) && runs_along(bar, run);
+    if (run.length() < options_.min_handrail_length_m) return std::nullopt;
+    if (!stands_alone(section, run) || !runs_along(bar, run)) return std::nullopt;
+    std::vector<double> across;
+    for (const Eigen::Vector3d& p : bar) across.push_back(p.y());
+    return Bar{median(std::move(across)), bar.size()};
   }
 
  private:
@@ -100,13 +109,14 @@ class BarTest {
 
 }  // namespace
 
-bool has_handrail(std::span<const Eigen::Vector3d> points, const RailingOptions& options) {
+std::optional<double> find_handrail(std::span<const Eigen::Vector3d> points, const RailingOptions& options) {
   const BarTest test(points, options);
   const double side = options.max_side_distance_m;
+  Bar best;
   for (const double beyond : places({-side, side}))
     for (const double above : places({options.min_handrail_height_m, options.max_handrail_height_m}))
-      if (test.holds_bar(beyond, above)) return true;
-  return false;
+      if (const std::optional<Bar> bar = test.bar_at(beyond, above); bar && bar->points > best.points) best = *bar;
+  return best.points > 0 ? std::optional(best.beyond) : std::nullopt;
 }
 
 }  // namespace stairway::detect

@@ -3,17 +3,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "detector/railing.hpp"
 
 namespace stairway::detect {
 
-/// Whether a thin bar runs along the stairway at hand height.
+/// Looks for a thin bar along the stairway at hand height.
 ///
 /// @param points  beside one end of the steps [m]: x along the line of nosings, y how far beyond the end, z above the
 ///                line (see FlightPoint); they reach max_thickness_m farther than handrails are looked for.
+/// @return how far beyond the end of the steps it runs [m].
 /// Cost: some hundred passes over the points.
-bool has_handrail(std::span<const Eigen::Vector3d> points, const RailingOptions& options);
+std::optional<double> find_handrail(std::span<const Eigen::Vector3d> points, const RailingOptions& options);
 
 }  // namespace stairway::detect

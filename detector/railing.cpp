@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "detector/baluster_search.hpp"
@@ -27,8 +28,19 @@ std::vector<Eigen::Vector3d> beside(const std::vector<FlightPoint>& points, cons
   return result;
 }
 
-bool has_railing(const std::vector<Eigen::Vector3d>& points, const RailingOptions& options) {
-  return has_handrail(points, options) || count_balusters(points, options) >= options.min_balusters;
+// How far beyond the end it runs.
+std::optional<double> railing_beside(const std::vector<Eigen::Vector3d>& points, const RailingOptions& options) {
+  if (const std::optional<double> handrail = find_handrail(points, options)) return handrail;
+  return find_balusters(points, options);
+}
+
+// Neither of the steps nor near enough to one to be mistaken for it.
+bool is_clear_of_steps(const StairModel& model, const FlightPoint& p) {
+  constexpr double kClear_m = 0.04;
+  if (p.above_m > kClear_m) return true;
+  const double fraction = p.step - std::floor(p.step);
+  return p.above_m + fraction * model.height_m > kClear_m && fraction * model.depth_m > kClear_m &&
+         (1.0 - fraction) * model.depth_m > kClear_m;
 }
 
 }  // namespace
@@ -56,8 +68,25 @@ Railing find_railing(const scan::PointCloud& cloud, const StairModel& model, con
         p.side_m >= sides.low - reach && p.side_m <= sides.high + reach)
       points.push_back(p);
   }
-  return {.left = has_railing(beside(points, model, +1.0, sides.high, reach), options),
-          .right = has_railing(beside(points, model, -1.0, sides.low, reach), options)};
+  const auto left = railing_beside(beside(points, model, +1.0, sides.high, reach), options);
+  const auto right = railing_beside(beside(points, model, -1.0, sides.low, reach), options);
+  return {.left = left.has_value(),
+          .right = right.has_value(),
+          .left_side_m = left ? sides.high + *left : 0.0,
+          .right_side_m = right ? sides.low - *right : 0.0};
+}
+
+scan::PointCloud without_railing(const scan::PointCloud& cloud, const StairModel& model, const Railing& railing) {
+  constexpr double kHalfWidth_m = 0.06;
+  constexpr double kTop_m = 1.3;
+  scan::PointCloud result = cloud;
+  std::erase_if(result.points, [&](const Eigen::Vector3f& point) {
+    const FlightPoint p = to_flight(model, point.cast<double>());
+    const bool in_line = (railing.left && std::abs(p.side_m - railing.left_side_m) < kHalfWidth_m) ||
+                         (railing.right && std::abs(p.side_m - railing.right_side_m) < kHalfWidth_m);
+    return in_line && p.above_m < kTop_m && is_clear_of_steps(model, p);
+  });
+  return result;
 }
 
 }  // namespace stairway::detect

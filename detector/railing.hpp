@@ -28,6 +28,9 @@ struct RailingOptions {
 struct Railing {
   bool left = false;
   bool right = false;
+  double left_side_m = 0.0;   ///< where it runs, along left() from the middle line of the model [m]; 0 when not seen
+  double right_side_m = 0.0;  ///< likewise
+  bool any() const { return left || right; }
 };
 
 /// Looks for a handrail or a row of balusters beside a stairway.
@@ -45,5 +48,10 @@ struct Railing {
 /// tests for what surrounds it are ours.
 Railing find_railing(const scan::PointCloud& cloud, const StairModel& model, const Interval& sides, int first, int last,
                      const RailingOptions& options = {});
+
+/// The cloud without what stands on the treads in the line of a railing.
+///
+/// A baluster hides the end of the step behind it, and says nothing about where that is.
+scan::PointCloud without_railing(const scan::PointCloud& cloud, const StairModel& model, const Railing& railing);
 
 }  // namespace stairway::detect

@@ -66,10 +66,25 @@ FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
           .evidence = fit.measurements};
 }
 
+// Balusters hide the ends of the steps behind them; without them these are measured once more.
+Interval sides_past_railing(const scan::PointCloud& cloud, const scan::PointCloud& thinned, const Winner& winner,
+                            const JointFit& fit, const DetectorOptions& options) {
+  const Railing railing = find_railing(thinned, fit.model, fit.sides, fit.first, fit.last, options.railing);
+  if (!railing.any()) return fit.sides;
+  const std::optional<JointFit> again =
+      fit_jointly(without_railing(cloud, fit.model, railing), winner.graph, fit.sides, winner.view, options.joint_fit);
+  if (!again) return fit.sides;
+  const double shift = fit.model.step(0).to_step(again->model.nosing).v;
+  Interval sides = fit.sides;
+  if (railing.left) sides.high = std::max(sides.high, again->sides.high + shift);
+  if (railing.right) sides.low = std::min(sides.low, again->sides.low + shift);
+  return sides;
+}
+
 // Fits every winner to the points; those that the points do not bear out are named in the answer.
-std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const std::vector<Winner>& winners,
-                                   const std::vector<StairPart>& parts, const DetectorOptions& options,
-                                   Detection& detection) {
+std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const scan::PointCloud& thinned,
+                                   const std::vector<Winner>& winners, const std::vector<StairPart>& parts,
+                                   const DetectorOptions& options, Detection& detection) {
   std::vector<FittedStairway> fitted;
   const CompetitionOptions& rules = options.competition;
   for (const Winner& winner : winners) {
@@ -80,6 +95,7 @@ std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const std::vec
               : std::string("no-points-on-steps");
     if (rule.empty()) {
       fitted.push_back(as_fitted(*joint, winner));
+      fitted.back().sides = sides_past_railing(cloud, thinned, winner, *joint, options);
     } else {
       detection.rejected.push_back(rejection(rule, joint ? joint->model : winner.graph.model,
                                              joint ? joint->seen_steps : 0, rules.confirmation));
@@ -117,7 +133,7 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
   if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
   std::vector<FittedStairway> fitted;
   if (options.competition.strategy == Strategy::Joint) {
-    fitted = refine(cloud, competition.winners, parts, options, detection);
+    fitted = refine(cloud, thinned, competition.winners, parts, options, detection);
   } else {
     for (const Winner& winner : competition.winners) fitted.push_back(from_parts(winner, parts));
   }

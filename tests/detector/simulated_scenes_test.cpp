@@ -56,6 +56,7 @@ struct Tally {
   int found = 0;
   int false_ones = 0;
   int wrong_steps = 0;
+  int wrong_railings = 0;
   Errors height, depth, width, heading, turn, place;
 
   void add(const Detection& detection, const Stairway& truth, std::uint64_t seed, const sim::StairSpec& spec) {
@@ -70,6 +71,8 @@ struct Tally {
       return;
     }
     ++found;
+    wrong_railings += answer->railing_left != truth.railing_left ? 1 : 0;
+    wrong_railings += answer->railing_right != truth.railing_right ? 1 : 0;
     wrong_steps += answer->nosings.size() != truth.nosings.size() ? 1 : 0;
     const double off_height = 1e3 * (answer->step_height - truth.step_height);
     const double off_depth = 1e3 * (answer->step_depth - truth.step_depth);
@@ -88,7 +91,8 @@ struct Tally {
   }
 
   void print() const {
-    fmt::print("found {} of {}, false {}, another number of steps {}\n", found, scenes, false_ones, wrong_steps);
+    fmt::print("found {} of {}, false {}, another number of steps {}, wrong railings {}\n", found, scenes, false_ones,
+               wrong_steps, wrong_railings);
     fmt::print(
         "mean absolute error: height {:.2f} mm, depth {:.2f} mm, width {:.1f} mm, heading {:.2f} deg, turn {:.2f} deg, "
         "place {:.1f} mm\n",
@@ -117,8 +121,36 @@ TEST(SimulatedFlights, are_all_found_to_a_few_millimetres) {
   const Tally flights = tally(sim::random_stair_scene, 30);
   ASSERT_EQ(flights.found, 30);
   EXPECT_EQ(flights.false_ones, 0);
+  EXPECT_LE(flights.wrong_railings, 3) << "of 60 sides";
   EXPECT_LT(flights.height.mean(), 2.5) << "mm, as the paper reaches in a hall";
   EXPECT_LT(flights.depth.mean(), 2.5) << "mm";
+}
+
+// The paper's Fig. 11: a wall that stands before the right side hides it and its railing.
+TEST(SimulatedFlights, hidden_on_the_right_are_anchored_at_the_railing_on_the_left) {
+  constexpr double kDistance_m = 2.2;
+  constexpr double kWall_m = 2.0;
+  for (const double hidden_m : {0.5, 0.6}) {
+    SCOPED_TRACE(hidden_m);
+    sim::StairSpec flight;
+    flight.railing_left = flight.railing_right = true;
+    flight.position = {kDistance_m, 0.0};
+    const double wall_x = 0.6 * kDistance_m;
+    const double wall_end = (hidden_m - 0.5 * flight.width_m) * wall_x / kDistance_m;
+    sim::SceneSpec spec;
+    spec.room = {.low = {-4.0, -6.0}, .high = {11.0, 6.0}};
+    spec.stairs = {flight};
+    spec.furniture = {{.kind = sim::FurnitureKind::Wall,
+                       .position = {wall_x, wall_end - 0.5 * kWall_m},
+                       .yaw_rad = M_PI / 2,
+                       .size = {kWall_m, 0.12, 2.8}}};
+    const sim::Scene scene = sim::build_scene(spec);
+    const Detection detection = detect_stairways(sim::simulate_sweep(scene, {}, {}, {}, kFirstSeed));
+    ASSERT_EQ(detection.stairways.size(), 1U);
+    const Stairway& found = detection.stairways[0];
+    EXPECT_EQ(found.anchor_side, AnchorSide::Left);
+    EXPECT_LT((found.anchor - scene.truths[0].nosings[0].left).norm(), 0.03);
+  }
 }
 
 TEST(SimulatedSpirals, are_found_with_their_turn) {
