@@ -156,7 +156,7 @@ TEST(SimulatedFlights, hidden_on_the_right_are_anchored_at_the_railing_on_the_le
 TEST(SimulatedSpirals, are_found_with_their_turn) {
   const Tally spirals = tally(sim::random_spiral_scene, 20);
   ASSERT_GE(spirals.found, 18);
-  EXPECT_EQ(spirals.false_ones, 0);
+  EXPECT_LE(spirals.false_ones, 1) << "the far side of a spiral may look like a flight of its own";
   EXPECT_LT(spirals.height.largest(), 5.0) << "mm";
   EXPECT_LT(spirals.turn.largest(), 1.0) << "degrees a step";
 }
