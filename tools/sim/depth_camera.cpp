@@ -99,9 +99,10 @@ Vector3d CameraIntrinsics::ray(double column_px, double row_px) const {
 
 std::optional<Eigen::Vector2d> CameraIntrinsics::pixel(const Vector3d& p_camera) const {
   if (!(p_camera.z() > 0)) return std::nullopt;
-  const Eigen::Vector2d place = focal_px / p_camera.z() * p_camera.head<2>() +
-                                0.5 * Eigen::Vector2d{width_px - 1, height_px - 1};
-  if (!((place.array() >= -0.5).all() && place.x() < width_px - 0.5 && place.y() < height_px - 0.5)) return std::nullopt;
+  const Eigen::Vector2d place =
+      focal_px / p_camera.z() * p_camera.head<2>() + 0.5 * Eigen::Vector2d{width_px - 1, height_px - 1};
+  if (!((place.array() >= -0.5).all() && place.x() < width_px - 0.5 && place.y() < height_px - 0.5))
+    return std::nullopt;
   return place;
 }
 

@@ -35,9 +35,9 @@ struct DepthCameraOptions {
   double noise_scale = 1.0;             ///< of axial_noise_m(); 0 is a perfect camera
   double inverse_depth_step = 2.87e-3;  ///< 1/z comes in multiples of it: disparities of 1/8 pixel over a baseline of
                                         ///< 75 mm (Khoshelham and Elberink, Sensors 2012) [1/m]; 0 is exact
-  double edge_noise_px = 0.8;      ///< standard deviation of the place of edges, at 640 columns [px]
-  double baseline_m = 0.075;       ///< what the projector, right of the camera, does not light has no depth [m]
-  double max_incidence_rad = 1.3;  ///< between ray and normal; surfaces seen flatter have no depth [rad]
+  double edge_noise_px = 0.8;           ///< standard deviation of the place of edges, at 640 columns [px]
+  double baseline_m = 0.075;            ///< what the projector, right of the camera, does not light has no depth [m]
+  double max_incidence_rad = 1.3;       ///< between ray and normal; surfaces seen flatter have no depth [rad]
 
   /// First problem found; empty when usable.
   std::string problem() const;

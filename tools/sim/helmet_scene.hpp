@@ -29,8 +29,8 @@ struct HelmetScene {
 /// (nosings_in_view). The same seed gives the same scene on every machine.
 HelmetScene random_helmet_scene(std::uint64_t seed, HelmetSubject subject);
 
-/// For each nosing of a stairway whether its middle lies in the picture of a Kinect at `pose` and within 4.2 m along its
-/// optical axis; what may hide it is not asked.
+/// For each nosing of a stairway whether its middle lies in the picture of a Kinect at `pose` and within 4.2 m along
+/// its optical axis; what may hide it is not asked.
 std::vector<bool> nosings_in_view(const detect::Stairway& stairway, const CameraPose& pose);
 
 }  // namespace stairway::sim
