@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "detector/step_view.hpp"
+
+namespace stairway::detect {
+
+/// A front and its direction, as in StepMeasurement.
+struct FrontMeasurement {
+  Estimate place;
+  std::optional<Estimate> turn;
+};
+
+/// The riser of a step, or the front face of an open tread; nothing when too few points, too little of the sides or too
+/// many points behind speak for it.
+std::optional<FrontMeasurement> measure_front(const StepView& view);
+
+}  // namespace stairway::detect
