@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "tools/sim/outline.hpp"
 #include "tools/sim/random.hpp"
@@ -36,6 +37,20 @@ TEST(SimOutline, subtracting_something_elsewhere_or_everything) {
   EXPECT_NEAR(total_area(subtract(room, rectangle({9, 0}, {1, 1}, 0.2))), 4.0, 1e-9);
   EXPECT_NEAR(total_area(subtract(room, rectangle({0, 0}, {5, 5}, 0.2))), 0.0, 1e-9);
   EXPECT_NEAR(total_area(subtract(room, rectangle({1, 0}, {2, 9}, 0.0))), 2.0, 1e-9);
+}
+
+TEST(SimOutline, a_hole_that_is_cut_is_missing_in_every_piece) {
+  std::vector<Outline> pieces{rectangle_between({0, 0}, {1, 2}), rectangle_between({1, 0}, {3, 2})};
+  const Outline hole = rectangle_between({1.5, 1.5}, {0.5, 0.5});
+  EXPECT_TRUE(overlap_any(hole, pieces));
+  cut(pieces, hole);
+  EXPECT_NEAR(total_area(pieces), 6 - 1, 1e-9);
+  EXPECT_FALSE(overlap_any(hole, pieces));
+}
+
+TEST(SimOutline, a_rectangle_turns_left_whichever_corners_are_given) {
+  for (const auto& [corner, opposite] : {std::pair<Eigen::Vector2d, Eigen::Vector2d>{{1, 2}, {4, 4}}, {{4, 2}, {1, 4}}})
+    EXPECT_NEAR(area(rectangle_between(corner, opposite)), 6.0, 1e-12);
 }
 
 TEST(SimOutline, hull_holds_all_points_and_turns_left) {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 
@@ -114,19 +114,14 @@ class Builder {
     const double x_high = bay.low.x() + kFoot_m + leg_.run_m() + kHalfLanding_m;
     const double y1 = flight_y(bay, true) + bay.side * (leg_.width_m / 2 + 0.05);
     const double y2 = flight_y(bay, false) - bay.side * (leg_.width_m / 2 + 0.05);
-    return rectangle({(x_low + x_high) / 2, (y1 + y2) / 2}, {x_high - x_low, std::abs(y1 - y2)}, 0.0);
+    return rectangle_between({x_low, y1}, {x_high, y2});
   }
 
   std::vector<Outline> floor(bool has_wells) const {
     std::vector<Outline> pieces{plan()};
     if (!has_wells) return pieces;
     for (const Bay& bay : bays_) {
-      if (!bay.is_stairwell) continue;
-      std::vector<Outline> rest;
-      for (const Outline& piece : pieces) {
-        for (Outline& part : subtract(piece, well(bay))) rest.push_back(std::move(part));
-      }
-      pieces = std::move(rest);
+      if (bay.is_stairwell) cut(pieces, well(bay));
     }
     return pieces;
   }
@@ -214,13 +209,11 @@ class Builder {
     const double half_m = z + leg_.storey_m() / 2;
     // The first flight brings the beginning of the landing with it; the second one's part is added here.
     const double split = flight_y(bay, false) + bay.side * (leg_.width_m / 2);
-    const auto add = [&](double x0, double y0, double x1, double y1) {
-      building_.scene.mesh.add_prism(rectangle({(x0 + x1) / 2, (y0 + y1) / 2}, {x1 - x0, y1 - y0}, 0.0),
-                                     half_m - kLandingSlab_m, half_m);
-    };
-    add(x_low + kShortestLanding_m, y_low, x_low + kHalfLanding_m, y_high);
-    add(x_low, std::min(split, bay.side > 0 ? y_high : y_low), x_low + kShortestLanding_m,
-        std::max(split, bay.side > 0 ? y_high : y_low));
+    const double end = x_low + kShortestLanding_m;
+    for (const Outline& slab : {rectangle_between({end, y_low}, {x_low + kHalfLanding_m, y_high}),
+                                rectangle_between({x_low, split}, {end, bay.side > 0 ? y_high : y_low})}) {
+      building_.scene.mesh.add_prism(slab, half_m - kLandingSlab_m, half_m);
+    }
     stand({{bay.low.x() + 0.7, flight_y(bay, false), z}, 0.0});
     stand({{x_low + 0.75, (y_low + y_high) / 2, half_m}, std::numbers::pi});
   }

@@ -71,9 +71,7 @@ void pave(SceneSpec& spec, const std::vector<Outline>& taken, Random& random) {
       Furniture slab;
       slab.position = {x + kSlab_m / 2, y + kSlab_m / 2};
       slab.size = {kSlab_m, kSlab_m, random.uniform(0.006, 0.012)};
-      bool is_free = true;
-      for (const Outline& outline : taken) is_free = is_free && !overlap(slab.footprint(), outline);
-      if (is_free) spec.furniture.push_back(slab);
+      if (!overlap_any(slab.footprint(), taken)) spec.furniture.push_back(slab);
     }
   }
 }

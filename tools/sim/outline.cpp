@@ -37,6 +37,10 @@ Outline rectangle(const Eigen::Vector2d& center, const Eigen::Vector2d& size, do
   return {center - x - y, center + x - y, center + x + y, center - x + y};
 }
 
+Outline rectangle_between(const Eigen::Vector2d& corner, const Eigen::Vector2d& opposite) {
+  return rectangle((corner + opposite) / 2, (opposite - corner).cwiseAbs(), 0.0);
+}
+
 Outline convex_hull(std::vector<Eigen::Vector2d> points) {
   // Points of one vertical side differ in x by rounding; sorted by that they would jump up and down the side.
   for (Eigen::Vector2d& p : points) p = (p / kResolution_m).array().round() * kResolution_m;
@@ -69,10 +73,22 @@ std::vector<Outline> subtract(const Outline& from, const Outline& hole) {
   return pieces;
 }
 
+void cut(std::vector<Outline>& pieces, const Outline& hole) {
+  std::vector<Outline> rest;
+  for (const auto& piece : pieces) {
+    for (auto& part : subtract(piece, hole)) rest.push_back(std::move(part));
+  }
+  pieces = std::move(rest);
+}
+
 bool overlap(const Outline& a, const Outline& b) {
   Outline common = a;
   for (std::size_t i = 0; i < b.size() && !common.empty(); ++i) common = clip(common, b[i], b[(i + 1) % b.size()]);
   return area(common) > kSmallestArea_m2;
+}
+
+bool overlap_any(const Outline& outline, const std::vector<Outline>& others) {
+  return std::any_of(others.begin(), others.end(), [&](const Outline& other) { return overlap(outline, other); });
 }
 
 Outline grown(const Outline& outline, double margin_m) {

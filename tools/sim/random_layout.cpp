@@ -35,7 +35,7 @@ bool fits(const Furniture& piece, const Room& room, const std::vector<Outline>& 
   for (const auto& p : footprint) {
     if ((p.array() < room.low.array()).any() || (p.array() > room.high.array()).any()) return false;
   }
-  return std::none_of(taken.begin(), taken.end(), [&](const Outline& other) { return overlap(footprint, other); });
+  return !overlap_any(footprint, taken);
 }
 
 // Tries some places, for a room may be full.

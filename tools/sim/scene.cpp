@@ -15,7 +15,7 @@ namespace {
 constexpr double kHeadroom_m = 2.1;
 constexpr double kRobotRadius_m = 0.2;
 
-Outline outline_of(const Room& room) { return rectangle((room.low + room.high) / 2, room.high - room.low, 0.0); }
+Outline outline_of(const Room& room) { return rectangle_between(room.low, room.high); }
 
 Outline robot_outline() {
   constexpr int kCorners = 24;
@@ -43,14 +43,6 @@ std::string problem_of(const Room& room) {
   }
   if (!(room.height_m >= 1.0)) return fmt::format("room: height {} m is below 1 m", room.height_m);
   return {};
-}
-
-void cut(std::vector<Outline>& pieces, const Outline& hole) {
-  std::vector<Outline> rest;
-  for (const auto& piece : pieces) {
-    for (auto& part : subtract(piece, hole)) rest.push_back(std::move(part));
-  }
-  pieces = std::move(rest);
 }
 
 void add_shaft(Mesh& mesh, const Outline& outline, double z_low_m, double z_high_m, double z_end_m) {
