@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/sim/angles.hpp"
 #include "tools/sim/random_layout.hpp"
 
 namespace stairway::sim {
@@ -16,11 +17,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint64_t kHelmetStream = 7;
 constexpr double kGravityError_rad = 1.0 * kDegree;
-
-Vector2d unit(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
 StairSpec random_flight(bool is_descending, Random& random) {
   StairSpec spec;

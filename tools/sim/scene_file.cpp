@@ -9,18 +9,17 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "tools/sim/angles.hpp"
 #include "tools/sim/random_scenes.hpp"
 #include "tools/sim/shipped_scenes.hpp"
 
 namespace stairway::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kLongestFile = 1 << 20;
 
 [[noreturn]] void fail(const std::string& source, const toml::source_region& where, const std::string& what) {
@@ -121,7 +120,7 @@ void read_place(TableReader& reader, StairSpec& spec) {
   reader.read("distance_m", distance);
   reader.read("bearing_deg", bearing, kDegree);
   reader.read("position_m", spec.position);
-  if (is_polar) spec.position = distance * Eigen::Vector2d{std::cos(bearing), std::sin(bearing)};
+  if (is_polar) spec.position = distance * unit(bearing);
   // Without a heading the flight leads straight away from the robot: up, or down.
   const Eigen::Vector2d ascent = spec.descending ? Eigen::Vector2d{-spec.position} : spec.position;
   spec.heading_rad = std::atan2(ascent.y(), ascent.x());
