@@ -109,4 +109,15 @@ std::vector<Furniture> furnish_around(const Room& room, const std::vector<Outlin
   return furnish(room, kClutter, random.integer(3, 12), taken, random);
 }
 
+void surround(SceneSpec& spec, Random& random) {
+  std::vector<Outline> footprints;
+  Outline all;
+  for (const StairSpec& stairs : spec.stairs) {
+    footprints.push_back(build_flight(stairs).footprint);
+    all.insert(all.end(), footprints.back().begin(), footprints.back().end());
+  }
+  spec.room = room_around(all, random);
+  spec.furniture = furnish_around(spec.room, footprints, random);
+}
+
 }  // namespace stairway::sim

@@ -33,4 +33,7 @@ std::vector<Furniture> furnish(const Room& room, std::span<const FurnitureKind> 
 /// The same around stairs: 3 to 12 things, none of them on the flights or between them and the robot.
 std::vector<Furniture> furnish_around(const Room& room, const std::vector<Outline>& footprints, Random& random);
 
+/// Puts a room around the stairs of `spec` and furnishes it.
+void surround(SceneSpec& spec, Random& random);
+
 }  // namespace stairway::sim

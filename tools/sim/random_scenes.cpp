@@ -7,9 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
-#include <numbers>
 
+#include "tools/sim/random_flight.hpp"
 #include "tools/sim/random_layout.hpp"
 
 namespace stairway::sim {
@@ -17,31 +16,17 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint64_t kStairStream = 1;
 constexpr std::uint64_t kRoomStream = 2;
 
 StairSpec random_flight(Random& random) {
   StairSpec spec;
   spec.steps = random.integer(4, 12);
-  do {
-    spec.height_m = random.uniform(0.14, 0.20);
-    spec.depth_m = random.uniform(0.24, 0.34);
-  } while (std::abs(2 * spec.height_m + spec.depth_m - 0.64) > 0.06);
+  draw_usual_steps(spec, random);
   spec.width_m = random.uniform(0.8, 1.6);
   spec.open_risers = random.chance(0.3);
-  spec.tread_thickness_m = random.uniform(0.03, 0.06);
-  spec.overhang_m = random.chance(0.5) ? random.uniform(0.0, 0.03) : 0.0;
-  spec.railing_left = random.chance(0.35);
-  spec.railing_right = random.chance(0.35);
-  spec.landing_m = random.uniform(0.8, 1.6);
-  do {
-    const double distance = random.uniform(0.6, 4.0);
-    const double skew = random.uniform(-40 * kDegree, 40 * kDegree);
-    spec.heading_rad = random_yaw(random);
-    const double bearing = spec.heading_rad - skew;
-    spec.position = distance * Vector2d{std::cos(bearing), std::sin(bearing)};
-  } while (overlap(build_flight(spec).footprint, robot_space()));
+  draw_fittings(spec, random);
+  place_before_robot(spec, 0.6, 4.0, random);
   return spec;
 }
 
@@ -61,9 +46,7 @@ SceneSpec random_stair_scene(std::uint64_t seed) {
   SceneSpec spec;
   spec.name = fmt::format("random-stairs:{}", seed);
   spec.stairs = {random_flight(random)};
-  const Outline footprint = build_flight(spec.stairs.front()).footprint;
-  spec.room = room_around(footprint, random);
-  spec.furniture = furnish_around(spec.room, {footprint}, random);
+  surround(spec, random);
   return spec;
 }
 

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/sim/angles.hpp"
+#include "tools/sim/random_flight.hpp"
 #include "tools/sim/random_layout.hpp"
 #include "tools/sim/random_scenes.hpp"
 
 namespace stairway::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint64_t kSpiralStream = 3;
 constexpr double kHeadroom_m = 2.0;
 constexpr double kLandingThickness_m = 0.16;
@@ -42,13 +43,7 @@ StairSpec random_spiral(Random& random) {
   spec.railing_left = has_railing && side < 0;
   spec.railing_right = has_railing && side > 0;
   spec.landing_m = random.uniform(0.6, 1.0);
-  do {
-    const double distance = random.uniform(0.8, 3.0);
-    const double skew = random.uniform(-40 * kDegree, 40 * kDegree);
-    spec.heading_rad = random_yaw(random);
-    const double bearing = spec.heading_rad - skew;
-    spec.position = distance * Eigen::Vector2d{std::cos(bearing), std::sin(bearing)};
-  } while (overlap(build_flight(spec).footprint, robot_space()));
+  place_before_robot(spec, 0.8, 3.0, random);
   return spec;
 }
 
@@ -59,9 +54,7 @@ SceneSpec random_spiral_scene(std::uint64_t seed) {
   SceneSpec spec;
   spec.name = fmt::format("random-spiral:{}", seed);
   spec.stairs = {random_spiral(random)};
-  const Outline footprint = build_flight(spec.stairs.front()).footprint;
-  spec.room = room_around(footprint, random);
-  spec.furniture = furnish_around(spec.room, {footprint}, random);
+  surround(spec, random);
   return spec;
 }
 
