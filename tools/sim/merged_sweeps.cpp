@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/sim/merged_sweeps.hpp"
 
+#include "detector/levelling.hpp"
 #include "tools/sim/random.hpp"
 
 namespace stairway::sim {
@@ -24,10 +25,9 @@ scan::PointCloud simulate_merged(const Scene& scene, std::span<const Stand> stan
     const Eigen::Isometry3d T_scene_base = placed(stand);
     Scene seen;
     seen.mesh.append(scene.mesh, T_scene_base.inverse());
-    const scan::PointCloud sweep = simulate_sweep(seen, mount, scanner, options, seeds.next());
-    const Eigen::Isometry3f T = T_scene_base.cast<float>();
-    merged.points.reserve(merged.points.size() + sweep.points.size());
-    for (const Eigen::Vector3f& p : sweep.points) merged.points.emplace_back(T * p);
+    const scan::PointCloud sweep =
+        detect::transformed(simulate_sweep(seen, mount, scanner, options, seeds.next()), T_scene_base);
+    merged.points.insert(merged.points.end(), sweep.points.begin(), sweep.points.end());
   }
   return merged;
 }
