@@ -18,10 +18,6 @@ constexpr double kTiny_m = 1e-6;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-Eigen::Vector3d normal_of(const sim::Triangle& t) {
-  return (t.corners[1] - t.corners[0]).cross(t.corners[2] - t.corners[0]).normalized();
-}
-
 // Whether two edges lie on one line and overlap by more than a point.
 bool overlap(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1, const Eigen::Vector3d& b0,
              const Eigen::Vector3d& b1) {
@@ -50,7 +46,7 @@ Eigen::Vector2d nearest_on_edge(const Eigen::Vector2d& a, const Eigen::Vector2d&
 
 TruthPlane::TruthPlane(std::span<const sim::Triangle> triangles)
     : origin_(triangles.front().corners[0]),
-      normal_(normal_of(triangles.front())),
+      normal_(triangles.front().normal()),
       u_((triangles.front().corners[1] - origin_).normalized()),
       v_(normal_.cross(u_)) {
   low_.setConstant(std::numeric_limits<double>::infinity());
@@ -121,7 +117,7 @@ std::vector<TruthPlane> truth_planes(std::span<const sim::Triangle> triangles) {
     return i;
   };
   std::vector<Eigen::Vector3d> normals;
-  for (const sim::Triangle& triangle : triangles) normals.push_back(normal_of(triangle));
+  for (const sim::Triangle& triangle : triangles) normals.push_back(triangle.normal());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (normals[i].cross(normals[k]).norm() > kTiny_m) continue;

@@ -22,10 +22,7 @@ constexpr float kShadowMargin_m = 0.005F;  // a point does not shade itself
 
 std::vector<Vector3f> surface_normals(const Mesh& mesh) {
   std::vector<Vector3f> normals(mesh.surface_count(), Vector3f::UnitZ());
-  for (const Triangle& triangle : mesh.triangles()) {
-    const auto& [a, b, c] = triangle.corners;
-    normals[triangle.surface] = (b - a).cross(c - a).normalized().cast<float>();
-  }
+  for (const Triangle& triangle : mesh.triangles()) normals[triangle.surface] = triangle.normal().cast<float>();
   return normals;
 }
 

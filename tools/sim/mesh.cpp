@@ -13,7 +13,7 @@ constexpr double kSamePlane_m = 1e-6;
 Eigen::Vector3d at_height(const Eigen::Vector2d& p, double z_m) { return {p.x(), p.y(), z_m}; }
 
 bool is_coplanar(const Triangle& a, const Triangle& b) {
-  const Eigen::Vector3d normal = (a.corners[1] - a.corners[0]).cross(a.corners[2] - a.corners[0]).normalized();
+  const Eigen::Vector3d normal = a.normal();
   for (const auto& corner : b.corners) {
     if (std::abs(normal.dot(corner - a.corners[0])) > kSamePlane_m) return false;
   }

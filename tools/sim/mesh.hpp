@@ -16,6 +16,9 @@ namespace stairway::sim {
 struct Triangle {
   std::array<Eigen::Vector3d, 3> corners;  ///< [m]
   std::uint32_t surface = 0;
+
+  /// Of unit length, towards the side from which the corners turn left.
+  Eigen::Vector3d normal() const { return (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized(); }
 };
 
 /// What a beam can hit: triangles without inside or outside, in one frame [m].
