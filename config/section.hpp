@@ -30,8 +30,9 @@ class Section {
       : table_(table), prefix_(name.empty() ? "" : std::move(name) + ".") {}
 
   Section& real(const std::string& name, double& value, Unit unit, Range range, std::string doc) {
-    const std::string ending = unit.name.empty() ? "" : "_" + std::string(unit.name);
-    return add(name + ending, std::move(doc), RealField{&value, unit, range.min, range.max});
+    std::string key = name;
+    if (!unit.name.empty()) key.append("_").append(unit.name);
+    return add(key, std::move(doc), RealField{&value, unit, range.min, range.max});
   }
   Section& whole(const std::string& name, int& value, int min, int max, std::string doc) {
     return add(name, std::move(doc), WholeField{&value, min, max});
