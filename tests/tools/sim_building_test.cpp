@@ -63,6 +63,17 @@ TEST(SimBuilding, robots_stand_on_floors_with_space_around_them) {
   }
 }
 
+TEST(SimBuilding, can_be_as_high_and_as_long_as_its_specification_allows) {
+  constexpr int kMost = 20;
+  for (const int rooms : {2, kMost}) {
+    for (const int storeys : {2, 6, kMost}) {
+      const BuildingSpec spec{.storeys = storeys, .rooms = rooms, .stairwells = 2, .seed = 1};
+      ASSERT_EQ(spec.problem(), "");
+      EXPECT_EQ(build_building(spec).scene.truths.size(), 4U * static_cast<std::size_t>(storeys - 1));
+    }
+  }
+}
+
 TEST(SimBuilding, differs_by_seed_and_repeats_itself) {
   const auto first = build_building({.seed = 1}).scene;
   EXPECT_EQ(first.mesh.triangles().size(), build_building({.seed = 1}).scene.mesh.triangles().size());

@@ -224,9 +224,9 @@ std::string StairSpec::problem() const {
       {"tread_thickness_m", {tread_thickness_m, 0.005, height_m}},
       {"overhang_m", {overhang_m, 0.0, depth_m / 2}},
       {"landing_m", {landing_m, 0.1, 20.0}},
-      {"level_m", {level_m, -10.0, 10.0}},
-      {"x", {position.x(), -30.0, 30.0}},
-      {"y", {position.y(), -30.0, 30.0}},
+      {"level_m", {level_m, -100.0, 100.0}},
+      {"x", {position.x(), -150.0, 150.0}},
+      {"y", {position.y(), -150.0, 150.0}},
       {"heading_rad", {heading_rad, -10.0, 10.0}},
       {"turn_per_step_rad", {turn_per_step_rad, -1.0, 1.0}},
   };
