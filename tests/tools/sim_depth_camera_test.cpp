@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tools/sim/angles.hpp"
 #include "tools/sim/depth_camera.hpp"
 #include "tools/sim/helmet_scene.hpp"
 
@@ -175,7 +176,7 @@ TEST(SimHelmetScene, can_all_be_built_and_show_what_they_are_about) {
       SCOPED_TRACE(seed);
       const HelmetScene view = random_helmet_scene(seed, subject);
       ASSERT_EQ(view.scene.problem(), "");
-      EXPECT_LT(std::abs(view.assumed.pitch_down_rad - view.pose.pitch_down_rad), 5 * M_PI / 180);
+      EXPECT_LT(std::abs(view.assumed.pitch_down_rad - view.pose.pitch_down_rad), 5 * kDegree);
       ASSERT_EQ(view.scene.stairs.empty(), subject == HelmetSubject::Nothing);
       if (view.scene.stairs.empty()) continue;
       EXPECT_EQ(view.scene.stairs[0].descending, subject == HelmetSubject::Descending);

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "tools/sim/angles.hpp"
 #include "tools/sim/outline.hpp"
 #include "tools/sim/random_scenes.hpp"
 
@@ -13,7 +14,6 @@ namespace stairway::sim {
 namespace {
 
 constexpr std::uint64_t kSeeds = 200;
-constexpr double kDegree = M_PI / 180;
 
 TEST(SimRandomScenes, can_all_be_built) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
@@ -36,7 +36,7 @@ TEST(SimRandomScenes, stairs_can_be_walked_and_are_seen_askew_by_forty_degrees_a
     EXPECT_GE(stairs.position.norm(), 0.6);
     EXPECT_LE(stairs.position.norm(), 4.0);
     const double bearing = std::atan2(stairs.position.y(), stairs.position.x());
-    EXPECT_LE(std::abs(std::remainder(stairs.heading_rad - bearing, 2 * M_PI)), 40.01 * M_PI / 180);
+    EXPECT_LE(std::abs(std::remainder(stairs.heading_rad - bearing, 2 * M_PI)), 40.01 * kDegree);
   }
 }
 
