@@ -135,18 +135,15 @@ void add_steps(const std::vector<DepthFrame>& frames, Result& result) {
                {"found_descending", "%", 1},
                {"paper_descending", "%", 1}},
               {}};
-  Chart chart{.name = "depth-camera-steps",
-              .title = "Detection rate by step position",
-              .x_label = "step, counted from the sensor",
-              .y_label = "found [%]",
-              .categories = {},
-              .curves = {{.name = "ascending", .x = {}, .y = {}, .spread = {}},
-                         {.name = "descending", .x = {}, .y = {}, .spread = {}},
-                         {.name = "paper, ascending",
-                          .x = {1, 2, 3, 4, 5},
-                          .y = {100, 100, 100, 100, 100},
-                          .spread = {},
-                          .from_paper = true}}};
+  Chart chart{
+      .name = "depth-camera-steps",
+      .title = "Detection rate by step position",
+      .x_label = "step, counted from the sensor",
+      .y_label = "found [%]",
+      .curves = {
+          {.name = "ascending"},
+          {.name = "descending"},
+          {.name = "paper, ascending", .x = {1, 2, 3, 4, 5}, .y = {100, 100, 100, 100, 100}, .from_paper = true}}};
   for (std::size_t position = 0; position < kStepPositions; ++position) {
     std::vector<Cell> row{static_cast<double>(position + 1)};
     std::size_t curve = 0;
@@ -155,10 +152,7 @@ void add_steps(const std::vector<DepthFrame>& frames, Result& result) {
       const Cell share = percentage(rate.found, rate.shown);
       const bool does_paper_tell = position < (label == FrameLabel::Ascending ? kPaperAscending : kPaperDescending);
       row.insert(row.end(), {static_cast<double>(rate.shown), share, does_paper_tell ? Cell{100.0} : Cell{}});
-      if (rate.shown > 0) {
-        chart.curves[curve].x.push_back(static_cast<double>(position + 1));
-        chart.curves[curve].y.push_back(std::get<double>(share));
-      }
+      if (rate.shown > 0) chart.curves[curve].add(static_cast<double>(position + 1), std::get<double>(share));
       ++curve;
     }
     table.rows.push_back(std::move(row));

@@ -39,6 +39,16 @@ struct Curve {
   std::vector<double> y;       ///< not finite where nothing is known; a line is interrupted there
   std::vector<double> spread;  ///< half the height of an error bar at each point; may be empty
   bool from_paper = false;     ///< drawn apart from what was measured here
+
+  /// A further point. All points of a curve have an error bar, or none has.
+  void add(double at, double value) {
+    x.push_back(at);
+    y.push_back(value);
+  }
+  void add(double at, double value, double half_bar) {
+    add(at, value);
+    spread.push_back(half_bar);
+  }
 };
 
 struct Chart {

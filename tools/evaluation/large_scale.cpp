@@ -109,10 +109,9 @@ Chart growth_chart(const std::vector<Measured>& all, const char* name, const cha
   Chart chart{.name = name, .title = title, .x_label = "points", .y_label = y_label, .logarithmic = true};
   Curve measured{.name = "measured"}, linear{.name = "in proportion to the points", .from_paper = true};
   for (const Measured& m : all) {
-    measured.x.push_back(static_cast<double>(m.points));
-    measured.y.push_back(m.*quantity);
-    linear.x.push_back(measured.x.back());
-    linear.y.push_back(measured.y.front() * measured.x.back() / measured.x.front());
+    const auto points = static_cast<double>(m.points);
+    measured.add(points, m.*quantity);
+    linear.add(points, measured.y.front() * points / measured.x.front());
   }
   chart.curves = {std::move(measured), std::move(linear)};
   return chart;

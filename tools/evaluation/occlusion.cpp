@@ -130,9 +130,7 @@ Chart make_chart(const std::vector<Place>& places, const std::vector<std::vector
       if (places[i].distance_m != distance) continue;
       for (auto [curve, spread] :
            {std::pair{&anchor, anchor_error(outcomes[i])}, std::pair{&middle, middle_error(outcomes[i])}}) {
-        curve->x.push_back(100.0 * places[i].hidden_share);
-        curve->y.push_back(spread.mean);
-        curve->spread.push_back(spread.deviation);
+        curve->add(100.0 * places[i].hidden_share, spread.mean, spread.deviation);
       }
     }
     chart.curves.push_back(std::move(anchor));

@@ -108,9 +108,7 @@ Chart make_chart(const std::string& name, const std::string& title, const Groups
     Curve curve{.name = quantity.name};
     for (const auto& [group, outcomes] : groups) {
       const Spread s = spread(outcomes, quantity);
-      curve.x.push_back(static_cast<double>(curve.x.size()));
-      curve.y.push_back(s.mean);
-      curve.spread.push_back(s.deviation);
+      curve.add(static_cast<double>(curve.x.size()), s.mean, s.deviation);
     }
     chart.curves.push_back(std::move(curve));
   }

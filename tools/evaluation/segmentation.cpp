@@ -135,8 +135,7 @@ Table measure_table(const AllSeries& all) {
     for (std::size_t i = 0; i < kMethods.size(); ++i) {
       const std::vector<double> values = percentages(all[i], measure);
       table.rows.push_back({measure.name, measure.paper_name, kMethods[i].name, mean(values), deviation(values),
-                            mean(values) - baseline,
-                            measure.paper_pp[i] ? Cell(*measure.paper_pp[i]) : Cell(std::monostate{})});
+                            mean(values) - baseline, measure.paper_pp[i] ? Cell(*measure.paper_pp[i]) : Cell()});
     }
   }
   return table;
@@ -151,7 +150,7 @@ Table time_table(const AllSeries& all) {
   for (std::size_t i = 0; i < kMethods.size(); ++i) {
     const double normals = mean(all[i].normals_ms);
     const double segmentation = mean(all[i].segmentation_ms);
-    table.rows.push_back({kMethods[i].name, normals > 0.0 ? Cell(normals) : Cell(std::monostate{}), segmentation,
+    table.rows.push_back({kMethods[i].name, normals > 0.0 ? Cell(normals) : Cell(), segmentation,
                           normals + segmentation, kMethods[i].paper_on_time});
   }
   return table;
@@ -160,21 +159,15 @@ Table time_table(const AllSeries& all) {
 Chart measure_chart(const AllSeries& all) {
   Chart chart{.name = "segmentation-measures",
               .title = "Segmentations against region growing",
-              .x_label = "",
-              .y_label = "of region growing [%]",
-              .categories = {},
-              .curves = {}};
+              .y_label = "of region growing [%]"};
   for (const Measure& measure : kMeasures) chart.categories.emplace_back(measure.name);
   for (std::size_t i = 0; i < kMethods.size(); ++i) {
-    Curve ours{.name = kMethods[i].name, .x = {}, .y = {}, .spread = {}};
-    Curve paper{
-        .name = fmt::format("{} (paper)", kMethods[i].name), .x = {}, .y = {}, .spread = {}, .from_paper = true};
+    Curve ours{.name = kMethods[i].name};
+    Curve paper{.name = fmt::format("{} (paper)", kMethods[i].name), .from_paper = true};
     for (std::size_t k = 0; k < kMeasures.size(); ++k) {
       const double baseline = mean(percentages(all[0], kMeasures[k]));
-      ours.x.push_back(static_cast<double>(k));
-      ours.y.push_back(kPercent * mean(percentages(all[i], kMeasures[k])) / baseline);
-      paper.x.push_back(static_cast<double>(k));
-      paper.y.push_back(kMeasures[k].paper_pp[i] ? kPercent + *kMeasures[k].paper_pp[i] : kUnknown);
+      ours.add(static_cast<double>(k), kPercent * mean(percentages(all[i], kMeasures[k])) / baseline);
+      paper.add(static_cast<double>(k), kMeasures[k].paper_pp[i] ? kPercent + *kMeasures[k].paper_pp[i] : kUnknown);
     }
     chart.curves.push_back(std::move(ours));
     if (i > 0) chart.curves.push_back(std::move(paper));
@@ -185,20 +178,13 @@ Chart measure_chart(const AllSeries& all) {
 Chart time_chart(const AllSeries& all) {
   Chart chart{.name = "segmentation-time",
               .title = "Time of the three segmentations",
-              .x_label = "",
               .y_label = "time [ms]",
-              .categories = {},
-              .curves = {{.name = "normals", .x = {}, .y = {}, .spread = {}},
-                         {.name = "segmentation", .x = {}, .y = {}, .spread = {}},
-                         {.name = "together", .x = {}, .y = {}, .spread = {}}}};
+              .curves = {{.name = "normals"}, {.name = "segmentation"}, {.name = "together"}}};
   for (std::size_t i = 0; i < kMethods.size(); ++i) {
     chart.categories.emplace_back(kMethods[i].name);
     const std::array times{mean(all[i].normals_ms), mean(all[i].segmentation_ms)};
     const std::array bars{times[0], times[1], times[0] + times[1]};
-    for (std::size_t k = 0; k < bars.size(); ++k) {
-      chart.curves[k].x.push_back(static_cast<double>(i));
-      chart.curves[k].y.push_back(bars[k]);
-    }
+    for (std::size_t k = 0; k < bars.size(); ++k) chart.curves[k].add(static_cast<double>(i), bars[k]);
   }
   return chart;
 }

@@ -51,9 +51,7 @@ std::vector<Curve> curves(std::size_t stairway, const std::vector<SeriesPlace>& 
       for (const SeriesPlace& place : places) {
         if (place.stairway != stairway || place.strategy != s) continue;
         const Spread spread = absolute_error(place.outcomes, quantity, kMillimetres);
-        curve.x.push_back(place.distance_m);
-        curve.y.push_back(spread.mean);
-        curve.spread.push_back(spread.deviation);
+        curve.add(place.distance_m, spread.mean, spread.deviation);
       }
       result.push_back(std::move(curve));
     }
@@ -65,8 +63,7 @@ Curve bound(std::size_t stairway, const std::vector<SeriesPlace>& places, double
   Curve curve{.name = fmt::format("the paper: at most {:.0f} mm", bound_mm), .from_paper = true};
   for (const SeriesPlace& place : places) {
     if (place.stairway != stairway || place.strategy != 0 || !is_in_paper(stairway, place.distance_m)) continue;
-    curve.x.push_back(place.distance_m);
-    curve.y.push_back(bound_mm);
+    curve.add(place.distance_m, bound_mm);
   }
   return curve;
 }
@@ -205,9 +202,8 @@ Chart detection_chart(const std::vector<SeriesPlace>& places) {
       Curve curve{.name = fmt::format("{}, {}", name_of(stairway), kSeriesStrategies[s].name)};
       for (const SeriesPlace& place : places) {
         if (place.stairway != stairway || place.strategy != s) continue;
-        curve.x.push_back(place.distance_m);
-        curve.y.push_back(100.0 * found_count(place.outcomes) / static_cast<double>(place.outcomes.size()));
-        curve.spread.push_back(0.0);  // sets the curves apart
+        curve.add(place.distance_m, 100.0 * found_count(place.outcomes) / static_cast<double>(place.outcomes.size()),
+                  0.0);  // sets the curves apart
       }
       chart.curves.push_back(std::move(curve));
     }

@@ -132,9 +132,7 @@ Chart error_chart(const Groups& groups) {
     Curve curve{.name = strategies()[s].name};
     for (const auto& of_stairway : groups) {
       for (const Spread& spread : {of_stairway[s].height(), of_stairway[s].depth()}) {
-        curve.x.push_back(static_cast<double>(curve.x.size()));
-        curve.y.push_back(spread.mean);
-        curve.spread.push_back(spread.deviation);
+        curve.add(static_cast<double>(curve.x.size()), spread.mean, spread.deviation);
       }
     }
     chart.curves.push_back(std::move(curve));
@@ -157,13 +155,10 @@ Chart time_chart(const Groups& groups) {
       graph.insert(graph.end(), of_stairway[s].graph_ms.begin(), of_stairway[s].graph_ms.end());
       fit.insert(fit.end(), of_stairway[s].fit_ms.begin(), of_stairway[s].fit_ms.end());
     }
-    const auto add = [&](Curve& curve, double value) {
-      curve.x.push_back(static_cast<double>(s));
-      curve.y.push_back(value);
-    };
-    add(chart.curves[0], spread_of(graph).mean);
-    if (strategies()[s].strategy == detect::Strategy::Joint) add(chart.curves[1], spread_of(fit).mean);
-    if (const auto* paper = std::get_if<double>(&strategies()[s].paper_ms)) add(chart.curves[2], *paper);
+    const auto at = static_cast<double>(s);
+    chart.curves[0].add(at, spread_of(graph).mean);
+    if (strategies()[s].strategy == detect::Strategy::Joint) chart.curves[1].add(at, spread_of(fit).mean);
+    if (const auto* paper = std::get_if<double>(&strategies()[s].paper_ms)) chart.curves[2].add(at, *paper);
   }
   return chart;
 }
