@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "tools/evaluation/error_quantity.hpp"
 #include "tools/evaluation/measurement_series.hpp"
 #include "tools/evaluation/stairway_error.hpp"
 #include "tools/sim/stair_spec.hpp"
@@ -92,8 +93,7 @@ TEST(Outcome, errors_are_averaged_over_what_was_found) {
   std::vector<Outcome> outcomes(3);
   outcomes[0].error = StairwayError{.height_m = -0.002};
   outcomes[2].error = StairwayError{.height_m = 0.004};
-  const Spread spread = absolute_error(
-      outcomes, [](const StairwayError& e) { return e.height_m; }, kMillimetres);
+  const Spread spread = absolute_error(outcomes, kHeightError);
   EXPECT_EQ(spread.count, 2U);
   EXPECT_DOUBLE_EQ(spread.mean, 3.0);
 }

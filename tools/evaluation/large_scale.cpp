@@ -9,6 +9,7 @@
 #include <cmath>
 #include <span>
 
+#include "tools/evaluation/error_quantity.hpp"
 #include "tools/evaluation/measurement_series.hpp"
 #include "tools/evaluation/peak_memory.hpp"
 #include "tools/evaluation/stage_costs.hpp"
@@ -93,12 +94,7 @@ Table make_table(const std::vector<Measured>& all) {
     table.rows.push_back({static_cast<double>(m.spec.storeys), static_cast<double>(m.stands), 1e-6 * points,
                           static_cast<double>(m.flights), static_cast<double>(found_count(m.outcomes)),
                           static_cast<double>(right_step_count(m.outcomes)), static_cast<double>(m.false_count),
-                          absolute_error(
-                              m.outcomes, [](const StairwayError& e) { return e.height_m; }, kMillimetres)
-                              .mean,
-                          absolute_error(
-                              m.outcomes, [](const StairwayError& e) { return e.depth_m; }, kMillimetres)
-                              .mean,
+                          absolute_error(m.outcomes, kHeightError).mean, absolute_error(m.outcomes, kDepthError).mean,
                           m.time_s, m.graph_s, m.growth_MB, m.growth_MB * 1024.0 * 1024.0 / points});
   }
   return table;

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "tools/evaluation/error_quantity.hpp"
 #include "tools/evaluation/measurement_series.hpp"
 #include "tools/evaluation/parallel_runs.hpp"
 #include "tools/evaluation/stairway_error.hpp"
@@ -85,15 +86,6 @@ double anchored_left(const std::vector<Outcome>& outcomes) {
   return count;
 }
 
-Spread anchor_error(const std::vector<Outcome>& outcomes) {
-  return absolute_error(outcomes, &StairwayError::anchor_m, kMillimetres);
-}
-
-Spread middle_error(const std::vector<Outcome>& outcomes) {
-  return absolute_error(
-      outcomes, [](const StairwayError& e) { return e.middle_m; }, kMillimetres);
-}
-
 Table make_table(const std::vector<Place>& places, const std::vector<std::vector<Outcome>>& outcomes) {
   Table table{.name = "occlusion",
               .title = "Stairway III, its right side hidden by a wall: error of the anchor (Fig 11)",
@@ -110,7 +102,8 @@ Table make_table(const std::vector<Place>& places, const std::vector<std::vector
                           {"paper_anchor_error", "mm", 0}},
               .rows = {}};
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Spread anchor = anchor_error(outcomes[i]), middle = middle_error(outcomes[i]);
+    const Spread anchor = absolute_error(outcomes[i], kAnchorError);
+    const Spread middle = absolute_error(outcomes[i], kMiddleError);
     table.rows.push_back({places[i].distance_m, 100.0 * places[i].hidden_share, static_cast<double>(outcomes[i].size()),
                           static_cast<double>(found_count(outcomes[i])), anchored_left(outcomes[i]), anchor.mean,
                           anchor.deviation, anchor.largest, middle.mean, middle.deviation, kPaperError_mm});
@@ -128,8 +121,8 @@ Chart make_chart(const std::vector<Place>& places, const std::vector<std::vector
     Curve middle{.name = fmt::format("middle, {:.0f} m", distance)};
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (places[i].distance_m != distance) continue;
-      for (auto [curve, spread] :
-           {std::pair{&anchor, anchor_error(outcomes[i])}, std::pair{&middle, middle_error(outcomes[i])}}) {
+      for (const auto& [curve, quantity] : {std::pair{&anchor, kAnchorError}, std::pair{&middle, kMiddleError}}) {
+        const Spread spread = absolute_error(outcomes[i], quantity);
         curve->add(100.0 * places[i].hidden_share, spread.mean, spread.deviation);
       }
     }

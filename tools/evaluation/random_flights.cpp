@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tools/evaluation/error_quantity.hpp"
 #include "tools/evaluation/measurement_series.hpp"
 #include "tools/evaluation/parallel_runs.hpp"
 #include "tools/evaluation/stairway_error.hpp"
@@ -55,36 +56,15 @@ double count_found(const std::vector<Outcome>& outcomes, bool StairwayError::*is
                                            [&](const Outcome& o) { return o.error && (*o.error).*is_right; }));
 }
 
-struct Quantity {
-  const char* name;
-  const char* unit;
-  int digits;
-  double factor;
-  double (*of)(const StairwayError& error);
-};
-constexpr Quantity kHeight{"height", "mm", 2, kMillimetres, [](const StairwayError& e) { return e.height_m; }};
-constexpr Quantity kDepth{"depth", "mm", 2, kMillimetres, [](const StairwayError& e) { return e.depth_m; }};
-constexpr Quantity kWidth{"width", "mm", 1, kMillimetres, [](const StairwayError& e) { return e.width_m; }};
-constexpr Quantity kTurn{"turn", "deg", 2, kDegrees, [](const StairwayError& e) { return e.turn_rad; }};
-constexpr Quantity kHeading{"heading", "deg", 2, kDegrees, [](const StairwayError& e) { return e.heading_rad; }};
-constexpr Quantity kPlace{"anchor", "mm", 1, kMillimetres, [](const StairwayError& e) { return e.anchor_m(); }};
-
-Spread spread(const std::vector<Outcome>& outcomes, const Quantity& quantity) {
-  return absolute_error(outcomes, quantity.of, quantity.factor);
-}
-
 Table make_table(const std::string& name, const std::string& title, const Groups& groups, const Column& right,
-                 bool StairwayError::*is_right, const std::vector<Quantity>& quantities) {
+                 bool StairwayError::*is_right, const std::vector<ErrorQuantity>& quantities) {
   Table table{
       .name = name,
       .title = title,
       .columns =
           {{"stairways", ""}, {"runs", "", 0}, {"found", "", 0}, right, {"right_steps", "", 0}, {"false", "", 0}},
       .rows = {}};
-  for (const Quantity& quantity : quantities) {
-    table.columns.push_back({std::string(quantity.name) + "_error", quantity.unit, quantity.digits});
-    table.columns.push_back({std::string(quantity.name) + "_sd", quantity.unit, quantity.digits});
-  }
+  append_error_columns(table.columns, quantities);
   for (const auto& [group, outcomes] : groups) {
     std::vector<Cell> row{group,
                           static_cast<double>(outcomes.size()),
@@ -92,11 +72,7 @@ Table make_table(const std::string& name, const std::string& title, const Groups
                           count_found(outcomes, is_right),
                           static_cast<double>(right_step_count(outcomes)),
                           static_cast<double>(false_count(outcomes))};
-    for (const Quantity& quantity : quantities) {
-      const Spread s = spread(outcomes, quantity);
-      row.emplace_back(s.mean);
-      row.emplace_back(s.deviation);
-    }
+    append_errors(row, outcomes, quantities);
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -104,10 +80,10 @@ Table make_table(const std::string& name, const std::string& title, const Groups
 
 Chart make_chart(const std::string& name, const std::string& title, const Groups& groups) {
   Chart chart{.name = name, .title = title, .y_label = "mean absolute error [mm]"};
-  for (const Quantity& quantity : {kHeight, kDepth}) {
+  for (const ErrorQuantity& quantity : {kHeightError, kDepthError}) {
     Curve curve{.name = quantity.name};
     for (const auto& [group, outcomes] : groups) {
-      const Spread s = spread(outcomes, quantity);
+      const Spread s = absolute_error(outcomes, quantity);
       curve.add(static_cast<double>(curve.x.size()), s.mean, s.deviation);
     }
     chart.curves.push_back(std::move(curve));
@@ -136,7 +112,8 @@ Result run_spiral(const Request& request) {
   const Groups groups = measure({sim::random_spiral_scene, spiral_group, 60}, request);
   const Column kind{"found_as_spiral", "", 0};
   return {.tables = {make_table("spiral", "Spirals in furnished rooms (Fig 17 d)", groups, kind,
-                                &StairwayError::is_right_kind, {kHeight, kDepth, kTurn, kWidth, kPlace})},
+                                &StairwayError::is_right_kind,
+                                {kHeightError, kDepthError, kTurnError, kWidthError, kAnchorError})},
           .charts = {make_chart("spiral-errors", "Spirals: errors of height and depth", groups)},
           .notes = {fmt::format("The scenes are sim:random-spiral:{} and the following.", request.seed), kErrors,
                     "Depth is the chord at the middle of the width, and turn the angle from step to step. The paper "
@@ -146,17 +123,17 @@ Result run_spiral(const Request& request) {
 Result run_descending(const Request& request) {
   const Groups groups = measure({sim::random_descending_scene, mount_group, 40}, request);
   const Column direction{"found_as_descending", "", 0};
-  return {
-      .tables = {make_table("descending", "Descending flights seen from their upper edge (Fig 17 c)", groups, direction,
-                            &StairwayError::is_right_direction, {kHeight, kDepth, kWidth, kHeading, kPlace})},
-      .charts = {make_chart("descending-errors", "Descending flights: errors of height and depth", groups)},
-      .notes = {fmt::format("The scenes are sim:random-descending:{} and the following. Flights for the upright "
-                            "mount are shallow and long, or it could not see their treads; the inverted mount has "
-                            "usual ones.",
-                            request.seed),
-                kErrors,
-                "The paper shows one flight that was found from its upper edge and states no figures; from further "
-                "away its scanner saw no tread."}};
+  return {.tables = {make_table("descending", "Descending flights seen from their upper edge (Fig 17 c)", groups,
+                                direction, &StairwayError::is_right_direction,
+                                {kHeightError, kDepthError, kWidthError, kHeadingError, kAnchorError})},
+          .charts = {make_chart("descending-errors", "Descending flights: errors of height and depth", groups)},
+          .notes = {fmt::format("The scenes are sim:random-descending:{} and the following. Flights for the upright "
+                                "mount are shallow and long, or it could not see their treads; the inverted mount has "
+                                "usual ones.",
+                                request.seed),
+                    kErrors,
+                    "The paper shows one flight that was found from its upper edge and states no figures; from further "
+                    "away its scanner saw no tread."}};
 }
 
 }  // namespace stairway::evaluation

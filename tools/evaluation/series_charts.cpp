@@ -4,7 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <functional>
+#include <array>
+#include <span>
+
+#include "tools/evaluation/error_quantity.hpp"
+#include "tools/evaluation/measurement_series.hpp"
 
 namespace stairway::evaluation {
 namespace {
@@ -13,21 +17,10 @@ constexpr double kPaperLast_I_m = 4.5;  // where the paper found 4 of 10
 constexpr double kPaperCoefficientBound_mm = 7.0;
 constexpr double kPaperPlaceBound_mm = 50.0;
 
-using Quantity = std::function<double(const StairwayError&)>;
+constexpr std::array kCoefficients{kHeightError, kDepthError, kWidthError, kPitchError};
+constexpr std::array kPlaceErrors{kAlongError, kAcrossError};
 
-double height(const StairwayError& e) { return e.height_m; }
-double depth(const StairwayError& e) { return e.depth_m; }
-double width(const StairwayError& e) { return e.width_m; }
-double pitch(const StairwayError& e) { return e.pitch_rad; }
-double along(const StairwayError& e) { return e.along_m; }
-double across(const StairwayError& e) { return e.across_m; }
-
-const char* name_of(std::size_t stairway) { return stairway == 0 ? "I" : "III"; }
-
-void append(std::vector<Cell>& row, const Spread& spread) {
-  row.emplace_back(spread.mean);
-  row.emplace_back(spread.deviation);
-}
+std::string_view name_of(std::size_t stairway) { return series_stairway(stairway).name; }
 
 std::vector<Cell> head(const SeriesPlace& place) {
   return {std::string(kSeriesStrategies[place.strategy].name), place.distance_m,
@@ -43,14 +36,14 @@ bool is_in_paper(std::size_t stairway, double distance_m) { return stairway == 1
 
 /// Mean error over the distance, one curve per strategy and quantity.
 std::vector<Curve> curves(std::size_t stairway, const std::vector<SeriesPlace>& places,
-                          const std::vector<std::pair<std::string, Quantity>>& quantities) {
+                          std::span<const ErrorQuantity> quantities) {
   std::vector<Curve> result;
   for (std::size_t s = 0; s < kSeriesStrategies.size(); ++s) {
-    for (const auto& [name, quantity] : quantities) {
-      Curve curve{.name = fmt::format("{}, {}", name, kSeriesStrategies[s].name)};
+    for (const ErrorQuantity& quantity : quantities) {
+      Curve curve{.name = fmt::format("{}, {}", quantity.name, kSeriesStrategies[s].name)};
       for (const SeriesPlace& place : places) {
         if (place.stairway != stairway || place.strategy != s) continue;
-        const Spread spread = absolute_error(place.outcomes, quantity, kMillimetres);
+        const Spread spread = absolute_error(place.outcomes, quantity);
         curve.add(place.distance_m, spread.mean, spread.deviation);
       }
       result.push_back(std::move(curve));
@@ -74,10 +67,7 @@ std::vector<Cell> own_row(std::size_t strategy, const std::vector<SeriesPlace>& 
     if (place.strategy == strategy && is_in_paper(place.stairway, place.distance_m))
       all.insert(all.end(), place.outcomes.begin(), place.outcomes.end());
   std::vector<Cell> row{fmt::format("here, {}", kSeriesStrategies[strategy].name)};
-  append(row, absolute_error(all, height, kMillimetres));
-  append(row, absolute_error(all, depth, kMillimetres));
-  append(row, absolute_error(all, width, kMillimetres));
-  append(row, absolute_error(all, pitch, kDegrees));
+  append_errors(row, all, kCoefficients);
   return row;
 }
 
@@ -93,27 +83,17 @@ Table coefficient_table(std::size_t stairway, const std::vector<SeriesPlace>& pl
                           {"found", "", 0},
                           {"paper_found", ""},
                           {"right_steps", "", 0},
-                          {"false", "", 0},
-                          {"height_error", "mm", 2},
-                          {"height_sd", "mm", 2},
-                          {"depth_error", "mm", 2},
-                          {"depth_sd", "mm", 2},
-                          {"width_error", "mm", 1},
-                          {"width_sd", "mm", 1},
-                          {"pitch_error", "deg", 2},
-                          {"pitch_sd", "deg", 2},
-                          {"paper_bound", "mm", 0}},
+                          {"false", "", 0}},
               .rows = {}};
+  append_error_columns(table.columns, kCoefficients);
+  table.columns.push_back({"paper_bound", "mm", 0});
   for (const SeriesPlace& place : places) {
     if (place.stairway != stairway) continue;
     std::vector<Cell> row = head(place);
     row.push_back(paper_found(place));
     row.emplace_back(static_cast<double>(right_step_count(place.outcomes)));
     row.emplace_back(static_cast<double>(false_count(place.outcomes)));
-    append(row, absolute_error(place.outcomes, height, kMillimetres));
-    append(row, absolute_error(place.outcomes, depth, kMillimetres));
-    append(row, absolute_error(place.outcomes, width, kMillimetres));
-    append(row, absolute_error(place.outcomes, pitch, kDegrees));
+    append_errors(row, place.outcomes, kCoefficients);
     row.push_back(is_in_paper(stairway, place.distance_m) ? Cell(kPaperCoefficientBound_mm) : Cell());
     table.rows.push_back(std::move(row));
   }
@@ -124,23 +104,16 @@ Table localisation_table(std::size_t stairway, const std::vector<SeriesPlace>& p
   Table table{.name = fmt::format("series-{}-localisation", name_of(stairway)),
               .title = fmt::format("Stairway {}: errors of the anchor over the distance (Fig 18 {})", name_of(stairway),
                                    stairway == 0 ? "b" : "d"),
-              .columns = {{"strategy", ""},
-                          {"distance", "m", 1},
-                          {"runs", "", 0},
-                          {"found", "", 0},
-                          {"along_error", "mm", 1},
-                          {"along_sd", "mm", 1},
-                          {"across_error", "mm", 1},
-                          {"across_sd", "mm", 1},
-                          {"largest_distance", "mm", 1},
-                          {"paper_bound", "mm", 0}},
+              .columns = {{"strategy", ""}, {"distance", "m", 1}, {"runs", "", 0}, {"found", "", 0}},
               .rows = {}};
+  append_error_columns(table.columns, kPlaceErrors);
+  table.columns.push_back({"largest_distance", "mm", 1});
+  table.columns.push_back({"paper_bound", "mm", 0});
   for (const SeriesPlace& place : places) {
     if (place.stairway != stairway) continue;
     std::vector<Cell> row = head(place);
-    append(row, absolute_error(place.outcomes, along, kMillimetres));
-    append(row, absolute_error(place.outcomes, across, kMillimetres));
-    row.emplace_back(absolute_error(place.outcomes, &StairwayError::anchor_m, kMillimetres).largest);
+    append_errors(row, place.outcomes, kPlaceErrors);
+    row.emplace_back(absolute_error(place.outcomes, kAnchorError).largest);
     row.push_back(is_in_paper(stairway, place.distance_m) ? Cell(kPaperPlaceBound_mm) : Cell());
     table.rows.push_back(std::move(row));
   }
@@ -150,16 +123,9 @@ Table localisation_table(std::size_t stairway, const std::vector<SeriesPlace>& p
 Table comparison_table(const std::vector<SeriesPlace>& places) {
   Table table{.name = "table-2",
               .title = "Mean errors and standard deviations of both series, I beyond 4 m left out (Table 2)",
-              .columns = {{"method", ""},
-                          {"height_error", "mm", 2},
-                          {"height_sd", "mm", 2},
-                          {"depth_error", "mm", 2},
-                          {"depth_sd", "mm", 2},
-                          {"width_error", "mm", 1},
-                          {"width_sd", "mm", 1},
-                          {"pitch_error", "deg", 2},
-                          {"pitch_sd", "deg", 2}},
+              .columns = {{"method", ""}},
               .rows = {}};
+  append_error_columns(table.columns, kCoefficients);
   for (std::size_t s = 0; s < kSeriesStrategies.size(); ++s) table.rows.push_back(own_row(s, places));
   const auto stated = [&](const char* method, const std::vector<Cell>& figures) {
     table.rows.push_back({std::string(method)});
@@ -176,18 +142,18 @@ Table comparison_table(const std::vector<SeriesPlace>& places) {
 }
 
 std::vector<Chart> series_charts(std::size_t stairway, const std::vector<SeriesPlace>& places) {
-  const char* name = name_of(stairway);
+  const std::string_view name = name_of(stairway);
   Chart coefficients{.name = fmt::format("series-{}-coefficients", name),
                      .title = fmt::format("Stairway {}: errors of height and depth", name),
                      .x_label = "distance of the first nosing [m]",
                      .y_label = "mean absolute error [mm]",
-                     .curves = curves(stairway, places, {{"height", height}, {"depth", depth}})};
+                     .curves = curves(stairway, places, std::span(kCoefficients).first<2>())};
   coefficients.curves.push_back(bound(stairway, places, kPaperCoefficientBound_mm));
   Chart place{.name = fmt::format("series-{}-localisation", name),
               .title = fmt::format("Stairway {}: errors of the anchor", name),
               .x_label = "distance of the first nosing [m]",
               .y_label = "mean absolute error [mm]",
-              .curves = curves(stairway, places, {{"along", along}, {"across", across}})};
+              .curves = curves(stairway, places, kPlaceErrors)};
   place.curves.push_back(bound(stairway, places, kPaperPlaceBound_mm));
   return {std::move(coefficients), std::move(place)};
 }

@@ -82,12 +82,4 @@ int right_step_count(std::span<const Outcome> outcomes) {
       std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.error && o.error->steps == 0; }));
 }
 
-Spread absolute_error(std::span<const Outcome> outcomes, const std::function<double(const StairwayError&)>& error,
-                      double factor) {
-  std::vector<double> values;
-  for (const Outcome& outcome : outcomes)
-    if (outcome.error) values.push_back(factor * std::abs(error(*outcome.error)));
-  return spread_of(values);
-}
-
 }  // namespace stairway::evaluation

@@ -3,13 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "detector/stairway.hpp"
-#include "tools/evaluation/spread.hpp"
 
 namespace stairway::evaluation {
 
@@ -52,13 +50,5 @@ Outcome outcome_of(const detect::Detection& detection, const std::vector<detect:
 int found_count(std::span<const Outcome> outcomes);
 int false_count(std::span<const Outcome> outcomes);
 int right_step_count(std::span<const Outcome> outcomes);  ///< found with the right number of steps
-
-/// Mean and deviation of the absolute value of an error, over those that were found.
-/// @param factor  to the unit it is shown in.
-Spread absolute_error(std::span<const Outcome> outcomes, const std::function<double(const StairwayError&)>& error,
-                      double factor);
-
-inline constexpr double kMillimetres = 1e3;
-inline constexpr double kDegrees = 57.29577951308232;
 
 }  // namespace stairway::evaluation

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "tools/evaluation/error_quantity.hpp"
 #include "tools/evaluation/measurement_series.hpp"
 #include "tools/evaluation/parallel_runs.hpp"
 #include "tools/evaluation/stage_costs.hpp"
@@ -17,6 +18,7 @@ namespace {
 constexpr double kShareOfSeries = 0.5;
 constexpr std::size_t kEveryPlace = 2;
 constexpr double kMilliseconds = 1e3;
+constexpr std::array kErrors{kHeightError, kDepthError};
 
 struct StrategyRow {
   detect::Strategy strategy;
@@ -63,14 +65,6 @@ struct Group {
     graph_ms.push_back(kMilliseconds * trial.graph_s);
     fit_ms.push_back(kMilliseconds * trial.fit_s);
   }
-  Spread height() const {
-    return absolute_error(
-        outcomes, [](const StairwayError& e) { return e.height_m; }, kMillimetres);
-  }
-  Spread depth() const {
-    return absolute_error(
-        outcomes, [](const StairwayError& e) { return e.depth_m; }, kMillimetres);
-  }
 };
 using Groups = std::array<std::array<Group, 4>, 2>;  // by stairway and strategy
 
@@ -92,32 +86,25 @@ Groups measure(const Request& request) {
 }
 
 Table error_table(const Groups& groups) {
-  Table table{.name = "strategies",
-              .title = "Errors and processor time of the competing initialisations (Figs 19 and 20)",
-              .columns = {{"stairway", ""},
-                          {"strategy", ""},
-                          {"runs", "", 0},
-                          {"found", "", 0},
-                          {"right_steps", "", 0},
-                          {"height_error", "mm", 2},
-                          {"height_sd", "mm", 2},
-                          {"depth_error", "mm", 2},
-                          {"depth_sd", "mm", 2},
-                          {"graph_time", "ms", 2},
-                          {"graph_time_sd", "ms", 2},
-                          {"fit_time", "ms", 2},
-                          {"paper_graph_time", "ms", 0}},
-              .rows = {}};
+  Table table{
+      .name = "strategies",
+      .title = "Errors and processor time of the competing initialisations (Figs 19 and 20)",
+      .columns = {{"stairway", ""}, {"strategy", ""}, {"runs", "", 0}, {"found", "", 0}, {"right_steps", "", 0}},
+      .rows = {}};
+  append_error_columns(table.columns, kErrors);
+  table.columns.insert(
+      table.columns.end(),
+      {{"graph_time", "ms", 2}, {"graph_time_sd", "ms", 2}, {"fit_time", "ms", 2}, {"paper_graph_time", "ms", 0}});
   for (std::size_t stairway = 0; stairway < groups.size(); ++stairway) {
     for (std::size_t s = 0; s < strategies().size(); ++s) {
       const Group& group = groups[stairway][s];
       const Spread graph = spread_of(group.graph_ms);
-      table.rows.push_back({std::string(stairway == 0 ? "I" : "III"), std::string(strategies()[s].name),
-                            static_cast<double>(group.outcomes.size()),
-                            static_cast<double>(found_count(group.outcomes)),
-                            static_cast<double>(right_step_count(group.outcomes)), group.height().mean,
-                            group.height().deviation, group.depth().mean, group.depth().deviation, graph.mean,
-                            graph.deviation, spread_of(group.fit_ms).mean, strategies()[s].paper_ms});
+      std::vector<Cell> row{
+          std::string(series_stairway(stairway).name), strategies()[s].name, static_cast<double>(group.outcomes.size()),
+          static_cast<double>(found_count(group.outcomes)), static_cast<double>(right_step_count(group.outcomes))};
+      append_errors(row, group.outcomes, kErrors);
+      row.insert(row.end(), {graph.mean, graph.deviation, spread_of(group.fit_ms).mean, strategies()[s].paper_ms});
+      table.rows.push_back(std::move(row));
     }
   }
   return table;
@@ -131,7 +118,8 @@ Chart error_chart(const Groups& groups) {
   for (std::size_t s = 0; s < strategies().size(); ++s) {
     Curve curve{.name = strategies()[s].name};
     for (const auto& of_stairway : groups) {
-      for (const Spread& spread : {of_stairway[s].height(), of_stairway[s].depth()}) {
+      for (const ErrorQuantity& quantity : kErrors) {
+        const Spread spread = absolute_error(of_stairway[s].outcomes, quantity);
         curve.add(static_cast<double>(curve.x.size()), spread.mean, spread.deviation);
       }
     }
