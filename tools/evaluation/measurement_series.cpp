@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/evaluation/measurement_series.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -59,6 +61,10 @@ std::vector<SeriesRun> series_runs(double share, std::size_t stride) {
     }
   }
   return runs;
+}
+
+std::string SeriesRun::description() const {
+  return fmt::format("stairway {} at {:.1f} m", series_stairway(stairway).name, distance_m);
 }
 
 SeriesSweep simulate_run(const SeriesRun& run, const Request& request, int threads) {

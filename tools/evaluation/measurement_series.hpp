@@ -3,8 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "scan_assembly/point_cloud.hpp"
@@ -29,6 +28,8 @@ struct SeriesRun {
   std::size_t place = 0;     ///< index of the distance
   double distance_m = 0.0;
   std::uint64_t stream = 0;  ///< of random numbers; the same sweep has the same one in every experiment
+
+  std::string description() const;  ///< for a person, e.g. "stairway III at 2.5 m"
 };
 
 /// The sweeps of the paper's Fig 18: 0.5 to 6.5 m before stairways I and III, ten at each place.

@@ -60,20 +60,16 @@ Outcome look_past_wall(const Place& place, std::uint64_t stream, const Request& 
 std::vector<std::vector<Outcome>> measure(const std::vector<Place>& places, std::size_t sweeps,
                                           const Request& request) {
   const std::size_t count = places.size() * sweeps;
-  const auto tell = [&](std::size_t finished) {
-    if (!request.progress || finished >= count) return;
-    const Place& place = places[finished / sweeps];
-    request.progress(static_cast<double>(finished) / static_cast<double>(count),
-                     fmt::format("{:.0f} % hidden at {:.1f} m", 100.0 * place.hidden_share, place.distance_m));
-  };
-  tell(0);
-  const auto outcomes = run_in_parallel(
-      count,
+  const auto outcomes = run_with_progress(
+      request, count,
       [&](std::size_t i) {
         const std::size_t place = i / sweeps;
         return look_past_wall(places[place], kFirstStream + place * kSweeps + i % sweeps, request);
       },
-      tell);
+      [&](std::size_t i) {
+        const Place& place = places[i / sweeps];
+        return fmt::format("{:.0f} % hidden at {:.1f} m", 100.0 * place.hidden_share, place.distance_m);
+      });
   std::vector<std::vector<Outcome>> by_place(places.size());
   for (std::size_t i = 0; i < count; ++i) by_place[i / sweeps].push_back(outcomes[i]);
   return by_place;

@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "tools/evaluation/experiment.hpp"
+
 namespace stairway::evaluation {
 
 /// The results of run(0) .. run(count - 1), in this order whatever the number of threads.
@@ -48,6 +50,18 @@ auto run_in_parallel(std::size_t count, const Run& run, const std::function<void
   }
   if (failure) std::rethrow_exception(failure);
   return results;
+}
+
+/// The same, telling the request how far it has come.
+/// @param name_of  of a run, for a person; called with the number of those that have finished.
+template <typename Run, typename Name>
+auto run_with_progress(const Request& request, std::size_t count, const Run& run, const Name& name_of) {
+  const auto tell = [&](std::size_t finished) {
+    if (request.progress && finished < count)
+      request.progress(static_cast<double>(finished) / static_cast<double>(count), name_of(finished));
+  };
+  tell(0);
+  return run_in_parallel(count, run, tell);
 }
 
 }  // namespace stairway::evaluation

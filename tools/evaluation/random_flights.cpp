@@ -27,14 +27,8 @@ struct Sort {
 
 Groups measure(const Sort& sort, const Request& request) {
   const auto scenes = static_cast<std::size_t>(shared_count(sort.scenes, request.share));
-  const auto tell = [&](std::size_t finished) {
-    if (request.progress && finished < scenes)
-      request.progress(static_cast<double>(finished) / static_cast<double>(scenes),
-                       fmt::format("scene {}", request.seed + finished));
-  };
-  tell(0);
-  const auto results = run_in_parallel(
-      scenes,
+  const auto results = run_with_progress(
+      request, scenes,
       [&](std::size_t i) {
         const sim::SceneSpec spec = sort.make(request.seed + i);
         const sim::Scene scene = sim::build_scene(spec);
@@ -42,7 +36,7 @@ Groups measure(const Sort& sort, const Request& request) {
         const detect::Detection detection = detect::detect_stairways(cloud, request.settings.detector);
         return std::pair{sort.group_of(spec), outcome_of(detection, scene.truths)};
       },
-      tell);
+      [&](std::size_t i) { return fmt::format("scene {}", request.seed + i); });
   Groups groups;
   for (const auto& [group, outcome] : results) {
     groups[group].push_back(outcome);

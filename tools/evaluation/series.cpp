@@ -30,15 +30,9 @@ Outcomes detect_with_every_strategy(const SeriesRun& run, const Request& request
 
 std::vector<SeriesPlace> measure(const Request& request) {
   const std::vector<SeriesRun> runs = series_runs(request.share);
-  const auto tell = [&](std::size_t finished) {
-    if (!request.progress || finished >= runs.size()) return;
-    const SeriesRun& next = runs[finished];
-    request.progress(static_cast<double>(finished) / static_cast<double>(runs.size()),
-                     fmt::format("stairway {} at {:.1f} m", next.stairway == 0 ? "I" : "III", next.distance_m));
-  };
-  tell(0);
-  const auto results = run_in_parallel(
-      runs.size(), [&](std::size_t i) { return detect_with_every_strategy(runs[i], request); }, tell);
+  const auto results = run_with_progress(
+      request, runs.size(), [&](std::size_t i) { return detect_with_every_strategy(runs[i], request); },
+      [&](std::size_t i) { return runs[i].description(); });
   std::map<std::tuple<std::size_t, std::size_t, std::size_t>, SeriesPlace> places;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (std::size_t s = 0; s < kSeriesStrategies.size(); ++s) {

@@ -70,15 +70,9 @@ using Groups = std::array<std::array<Group, 4>, 2>;  // by stairway and strategy
 
 Groups measure(const Request& request) {
   const std::vector<SeriesRun> runs = series_runs(kShareOfSeries * request.share, kEveryPlace);
-  const auto tell = [&](std::size_t finished) {
-    if (!request.progress || finished >= runs.size()) return;
-    request.progress(
-        static_cast<double>(finished) / static_cast<double>(runs.size()),
-        fmt::format("stairway {} at {:.1f} m", runs[finished].stairway == 0 ? "I" : "III", runs[finished].distance_m));
-  };
-  tell(0);
-  const auto trials = run_in_parallel(
-      runs.size(), [&](std::size_t i) { return try_all(runs[i], request); }, tell);
+  const auto trials = run_with_progress(
+      request, runs.size(), [&](std::size_t i) { return try_all(runs[i], request); },
+      [&](std::size_t i) { return runs[i].description(); });
   Groups groups;
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (std::size_t s = 0; s < trials[i].size(); ++s) groups[runs[i].stairway][s].add(trials[i][s]);
