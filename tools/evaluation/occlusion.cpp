@@ -75,11 +75,8 @@ std::vector<std::vector<Outcome>> measure(const std::vector<Place>& places, std:
   return by_place;
 }
 
-double anchored_left(const std::vector<Outcome>& outcomes) {
-  double count = 0.0;
-  for (const Outcome& outcome : outcomes)
-    count += outcome.error && outcome.error->anchor_side == detect::AnchorSide::Left ? 1.0 : 0.0;
-  return count;
+int anchored_left(const std::vector<Outcome>& outcomes) {
+  return found_count(outcomes, [](const StairwayError& e) { return e.anchor_side == detect::AnchorSide::Left; });
 }
 
 Table make_table(const std::vector<Place>& places, const std::vector<std::vector<Outcome>>& outcomes) {
@@ -101,8 +98,9 @@ Table make_table(const std::vector<Place>& places, const std::vector<std::vector
     const Spread anchor = absolute_error(outcomes[i], kAnchorError);
     const Spread middle = absolute_error(outcomes[i], kMiddleError);
     table.rows.push_back({places[i].distance_m, 100.0 * places[i].hidden_share, static_cast<double>(outcomes[i].size()),
-                          static_cast<double>(found_count(outcomes[i])), anchored_left(outcomes[i]), anchor.mean,
-                          anchor.deviation, anchor.largest, middle.mean, middle.deviation, kPaperError_mm});
+                          static_cast<double>(found_count(outcomes[i])),
+                          static_cast<double>(anchored_left(outcomes[i])), anchor.mean, anchor.deviation,
+                          anchor.largest, middle.mean, middle.deviation, kPaperError_mm});
   }
   return table;
 }

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 
 #include "tools/evaluation/error_quantity.hpp"
@@ -45,11 +44,6 @@ Groups measure(const Sort& sort, const Request& request) {
   return groups;
 }
 
-double count_found(const std::vector<Outcome>& outcomes, bool StairwayError::*is_right) {
-  return static_cast<double>(std::count_if(outcomes.begin(), outcomes.end(),
-                                           [&](const Outcome& o) { return o.error && (*o.error).*is_right; }));
-}
-
 Table make_table(const std::string& name, const std::string& title, const Groups& groups, const Column& right,
                  bool StairwayError::*is_right, const std::vector<ErrorQuantity>& quantities) {
   Table table{
@@ -63,7 +57,7 @@ Table make_table(const std::string& name, const std::string& title, const Groups
     std::vector<Cell> row{group,
                           static_cast<double>(outcomes.size()),
                           static_cast<double>(found_count(outcomes)),
-                          count_found(outcomes, is_right),
+                          static_cast<double>(found_count(outcomes, is_right)),
                           static_cast<double>(right_step_count(outcomes)),
                           static_cast<double>(false_count(outcomes))};
     append_errors(row, outcomes, quantities);

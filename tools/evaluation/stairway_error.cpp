@@ -67,8 +67,12 @@ Outcome outcome_of(const detect::Detection& detection, const std::vector<detect:
 }
 
 int found_count(std::span<const Outcome> outcomes) {
+  return found_count(outcomes, [](const StairwayError&) { return true; });
+}
+
+int found_count(std::span<const Outcome> outcomes, const std::function<bool(const StairwayError&)>& is_right) {
   return static_cast<int>(
-      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.error.has_value(); }));
+      std::count_if(outcomes.begin(), outcomes.end(), [&](const Outcome& o) { return o.error && is_right(*o.error); }));
 }
 
 int false_count(std::span<const Outcome> outcomes) {
@@ -78,8 +82,7 @@ int false_count(std::span<const Outcome> outcomes) {
 }
 
 int right_step_count(std::span<const Outcome> outcomes) {
-  return static_cast<int>(
-      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.error && o.error->steps == 0; }));
+  return found_count(outcomes, [](const StairwayError& e) { return e.steps == 0; });
 }
 
 }  // namespace stairway::evaluation

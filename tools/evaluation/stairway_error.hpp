@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -48,6 +49,7 @@ Outcome outcome_of(const detect::Detection& detection, const std::vector<detect:
 
 /// Sums over some outcomes.
 int found_count(std::span<const Outcome> outcomes);
+int found_count(std::span<const Outcome> outcomes, const std::function<bool(const StairwayError&)>& is_right);
 int false_count(std::span<const Outcome> outcomes);
 int right_step_count(std::span<const Outcome> outcomes);  ///< found with the right number of steps
 
