@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <ranges>
 #include <span>
 
 #include "tools/evaluation/error_quantity.hpp"
@@ -32,7 +33,14 @@ Cell paper_found(const SeriesPlace& place) {
   return {};
 }
 
-bool is_in_paper(std::size_t stairway, double distance_m) { return stairway == 1 || distance_m < kPaperLast_I_m; }
+bool is_in_paper(const SeriesPlace& place) { return place.stairway == 1 || place.distance_m < kPaperLast_I_m; }
+
+/// The places of one strategy at one stairway.
+auto places_of(std::size_t stairway, std::size_t strategy, const std::vector<SeriesPlace>& places) {
+  return places | std::views::filter([=](const SeriesPlace& place) {
+           return place.stairway == stairway && place.strategy == strategy;
+         });
+}
 
 /// Mean error over the distance, one curve per strategy and quantity.
 std::vector<Curve> curves(std::size_t stairway, const std::vector<SeriesPlace>& places,
@@ -41,8 +49,7 @@ std::vector<Curve> curves(std::size_t stairway, const std::vector<SeriesPlace>& 
   for (std::size_t s = 0; s < kSeriesStrategies.size(); ++s) {
     for (const ErrorQuantity& quantity : quantities) {
       Curve curve{.name = fmt::format("{}, {}", quantity.name, kSeriesStrategies[s].name)};
-      for (const SeriesPlace& place : places) {
-        if (place.stairway != stairway || place.strategy != s) continue;
+      for (const SeriesPlace& place : places_of(stairway, s, places)) {
         const Spread spread = absolute_error(place.outcomes, quantity);
         curve.add(place.distance_m, spread.mean, spread.deviation);
       }
@@ -54,17 +61,15 @@ std::vector<Curve> curves(std::size_t stairway, const std::vector<SeriesPlace>& 
 
 Curve bound(std::size_t stairway, const std::vector<SeriesPlace>& places, double bound_mm) {
   Curve curve{.name = fmt::format("the paper: at most {:.0f} mm", bound_mm), .from_paper = true};
-  for (const SeriesPlace& place : places) {
-    if (place.stairway != stairway || place.strategy != 0 || !is_in_paper(stairway, place.distance_m)) continue;
-    curve.add(place.distance_m, bound_mm);
-  }
+  for (const SeriesPlace& place : places_of(stairway, 0, places))
+    if (is_in_paper(place)) curve.add(place.distance_m, bound_mm);
   return curve;
 }
 
 std::vector<Cell> own_row(std::size_t strategy, const std::vector<SeriesPlace>& places) {
   std::vector<Outcome> all;
   for (const SeriesPlace& place : places)
-    if (place.strategy == strategy && is_in_paper(place.stairway, place.distance_m))
+    if (place.strategy == strategy && is_in_paper(place))
       all.insert(all.end(), place.outcomes.begin(), place.outcomes.end());
   std::vector<Cell> row{fmt::format("here, {}", kSeriesStrategies[strategy].name)};
   append_errors(row, all, kCoefficients);
@@ -94,7 +99,7 @@ Table coefficient_table(std::size_t stairway, const std::vector<SeriesPlace>& pl
     row.emplace_back(static_cast<double>(right_step_count(place.outcomes)));
     row.emplace_back(static_cast<double>(false_count(place.outcomes)));
     append_errors(row, place.outcomes, kCoefficients);
-    row.push_back(is_in_paper(stairway, place.distance_m) ? Cell(kPaperCoefficientBound_mm) : Cell());
+    row.push_back(is_in_paper(place) ? Cell(kPaperCoefficientBound_mm) : Cell());
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -114,7 +119,7 @@ Table localisation_table(std::size_t stairway, const std::vector<SeriesPlace>& p
     std::vector<Cell> row = head(place);
     append_errors(row, place.outcomes, kPlaceErrors);
     row.emplace_back(absolute_error(place.outcomes, kAnchorError).largest);
-    row.push_back(is_in_paper(stairway, place.distance_m) ? Cell(kPaperPlaceBound_mm) : Cell());
+    row.push_back(is_in_paper(place) ? Cell(kPaperPlaceBound_mm) : Cell());
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -166,8 +171,7 @@ Chart detection_chart(const std::vector<SeriesPlace>& places) {
   for (const std::size_t stairway : {0U, 1U}) {
     for (std::size_t s = 0; s < kSeriesStrategies.size(); ++s) {
       Curve curve{.name = fmt::format("{}, {}", name_of(stairway), kSeriesStrategies[s].name)};
-      for (const SeriesPlace& place : places) {
-        if (place.stairway != stairway || place.strategy != s) continue;
+      for (const SeriesPlace& place : places_of(stairway, s, places)) {
         curve.add(place.distance_m, 100.0 * found_count(place.outcomes) / static_cast<double>(place.outcomes.size()),
                   0.0);  // sets the curves apart
       }
