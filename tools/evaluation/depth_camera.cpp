@@ -31,10 +31,6 @@ config::Settings usable_settings(const config::Settings& settings) {
   return result;
 }
 
-std::size_t part_of(int count, double share) {
-  return static_cast<std::size_t>(std::max(1L, std::lround(count * share)));
-}
-
 std::vector<DepthFrame> frames_of(const Request& request) {
   const config::Settings settings = usable_settings(request.settings);
   const auto in_parallel = [&](std::size_t count, const auto& run) {
@@ -46,8 +42,8 @@ std::vector<DepthFrame> frames_of(const Request& request) {
     const std::vector<LabelledFrame> labelled = read_labels(request.data);
     return in_parallel(labelled.size(), [&](std::size_t i) { return recorded_depth_frame(labelled[i], settings); });
   }
-  const std::size_t stairs = part_of(kStairImages, request.share);
-  const std::size_t others = part_of(kOtherImages, request.share);
+  const auto stairs = static_cast<std::size_t>(shared_count(kStairImages, request.share));
+  const auto others = static_cast<std::size_t>(shared_count(kOtherImages, request.share));
   return in_parallel(stairs + others, [&](std::size_t i) {
     const auto subject = i >= stairs  ? sim::HelmetSubject::Nothing
                          : i % 2 == 0 ? sim::HelmetSubject::Ascending

@@ -77,6 +77,9 @@ struct Request {
   std::function<void(double done, std::string_view next)> progress;
 };
 
+/// How many of `count` runs are made for this share: at least one.
+int shared_count(int count, double share);
+
 /// One experiment of the paper, repeated on simulated ground truth.
 struct Experiment {
   std::string_view name;  ///< as on the command line, e.g. "series"

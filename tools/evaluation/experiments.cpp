@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: The stairwayd authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
 #include "tools/evaluation/depth_camera.hpp"
 #include "tools/evaluation/experiment.hpp"
 #include "tools/evaluation/large_scale.hpp"
@@ -10,6 +13,8 @@
 #include "tools/evaluation/strategies.hpp"
 
 namespace stairway::evaluation {
+
+int shared_count(int count, double share) { return std::clamp(static_cast<int>(std::lround(share * count)), 1, count); }
 
 std::span<const Experiment> experiments() {
   static constexpr Experiment kExperiments[]{

@@ -80,6 +80,4 @@ scan::PointCloud sweep_in(const sim::Scene& scene, const Request& request, std::
   return sim::simulate_sweep(scene, scene.mount.value_or(request.settings.mount), {}, options, noise);
 }
 
-int shared_count(int count, double share) { return std::clamp(static_cast<int>(std::lround(share * count)), 1, count); }
-
 }  // namespace stairway::evaluation

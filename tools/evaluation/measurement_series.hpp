@@ -50,7 +50,4 @@ SeriesSweep simulate_run(const SeriesRun& run, const Request& request, int threa
 /// @param stream  together with the request's seed, decides the noise.
 scan::PointCloud sweep_in(const sim::Scene& scene, const Request& request, std::uint64_t stream, int threads);
 
-/// How many of `count` runs are made for this share: at least one.
-int shared_count(int count, double share);
-
 }  // namespace stairway::evaluation

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -208,7 +207,7 @@ sim::SceneSpec segmentation_scene(std::uint64_t seed, int position) {
 }
 
 Result run_segmentation(const Request& request) {
-  const int positions = std::max(1, static_cast<int>(std::lround(request.share * kPositions)));
+  const int positions = shared_count(kPositions, request.share);
   AllSeries all;
   for (int number = 0; number < positions; ++number) {
     if (request.progress)
