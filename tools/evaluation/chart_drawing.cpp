@@ -17,16 +17,11 @@ using Eigen::Vector2d;
 using tools::Canvas;
 using tools::Colour;
 
-constexpr Colour kInk{0.15, 0.15, 0.15};
 constexpr double kLine_px = 2.0;
 
 bool is_shown(const Chart& chart, double x, double y) {
   if (!std::isfinite(x) || !std::isfinite(y)) return false;
   return !chart.logarithmic || (y > 0.0 && (x > 0.0 || !chart.categories.empty()));
-}
-
-double spread_at(const Curve& curve, std::size_t i) {
-  return i < curve.spread.size() && std::isfinite(curve.spread[i]) ? curve.spread[i] : 0.0;
 }
 
 /// @param at  the middle of the bar, on the page.

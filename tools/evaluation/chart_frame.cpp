@@ -14,7 +14,6 @@ using Eigen::Vector2d;
 using tools::Canvas;
 using tools::Colour;
 
-constexpr Colour kInk{0.15, 0.15, 0.15};
 constexpr Colour kGridLine{0.88, 0.88, 0.88};
 constexpr Colour kFaintGridLine{0.95, 0.95, 0.95};
 constexpr double kMargin_px = 24.0;
@@ -56,7 +55,7 @@ Axis make_y_axis(const Chart& chart) {
   Range range;
   for (const Curve& curve : chart.curves) {
     for (std::size_t i = 0; i < curve.y.size(); ++i) {
-      const double spread = i < curve.spread.size() && std::isfinite(curve.spread[i]) ? curve.spread[i] : 0.0;
+      const double spread = spread_at(curve, i);
       range.take(curve.y[i] + spread, chart.logarithmic);
       if (!chart.logarithmic && curve.y[i] < 0.0) range.take(curve.y[i] - spread, false);
       if (chart.logarithmic) range.take(curve.y[i], true);
@@ -88,6 +87,10 @@ std::vector<Vector2d> legend_places(Canvas& canvas, const Chart& chart) {
 }
 
 }  // namespace
+
+double spread_at(const Curve& curve, std::size_t i) {
+  return i < curve.spread.size() && std::isfinite(curve.spread[i]) ? curve.spread[i] : 0.0;
+}
 
 CurveStyle style_of(std::size_t curve) {
   // Okabe and Ito's colours, which people with any colour vision can tell apart.

@@ -12,6 +12,10 @@ namespace stairway::evaluation {
 
 inline constexpr int kChartWidth_px = 1000;
 inline constexpr int kChartHeight_px = 620;
+inline constexpr tools::Colour kInk{0.15, 0.15, 0.15};
+
+/// Half the height of the error bar at point `i`; 0 where there is none.
+double spread_at(const Curve& curve, std::size_t i);
 
 /// How one curve looks. Curves differ in colour and in marker, so that a copy without colours can be read as well.
 struct CurveStyle {
