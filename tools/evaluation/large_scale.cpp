@@ -41,7 +41,6 @@ struct Measured {
   sim::BuildingSpec spec;
   std::size_t stands = 0;
   std::size_t points = 0;
-  std::size_t flights = 0;
   std::vector<Outcome> outcomes;  ///< one per flight
   int false_count = 0;
   double time_s = 0.0;
@@ -57,8 +56,7 @@ Measured measure(const Size& size, const Request& request) {
   const sim::SweepOptions sweep{.disk_period_s = kPeriodShare * request.settings.simulate.disk_period_s};
   const scan::PointCloud cloud =
       sim::simulate_merged(building.scene, stands, request.settings.mount, {}, sweep, request.seed);
-  Measured measured{
-      .spec = spec, .stands = stands.size(), .points = cloud.points.size(), .flights = building.scene.truths.size()};
+  Measured measured{.spec = spec, .stands = stands.size(), .points = cloud.points.size()};
   StageCosts costs;
   const PeakMemory memory;
   const detect::Detection detection = detect::detect_stairways(cloud, request.settings.detector, costs.listener());
@@ -92,7 +90,7 @@ Table make_table(const std::vector<Measured>& all) {
   for (const Measured& m : all) {
     const auto points = static_cast<double>(m.points);
     table.rows.push_back({static_cast<double>(m.spec.storeys), static_cast<double>(m.stands), 1e-6 * points,
-                          static_cast<double>(m.flights), static_cast<double>(found_count(m.outcomes)),
+                          static_cast<double>(m.outcomes.size()), static_cast<double>(found_count(m.outcomes)),
                           static_cast<double>(right_step_count(m.outcomes)), static_cast<double>(m.false_count),
                           absolute_error(m.outcomes, kHeightError).mean, absolute_error(m.outcomes, kDepthError).mean,
                           m.time_s, m.graph_s, m.growth_MB, m.growth_MB * 1024.0 * 1024.0 / points});
