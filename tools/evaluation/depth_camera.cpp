@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "config/load_settings.hpp"
 #include "tools/evaluation/depth_frame.hpp"
+#include "tools/evaluation/error_quantity.hpp"
 #include "tools/evaluation/parallel_runs.hpp"
 
 namespace stairway::evaluation {
@@ -21,6 +23,9 @@ constexpr int kOtherImages = 58;
 constexpr std::size_t kStepPositions = 10;
 constexpr std::size_t kPaperAscending = 5;  // steps that the paper says were always found; its curves are pictures only
 constexpr std::size_t kPaperDescending = 4;
+
+constexpr std::array kDirections{std::pair{FrameLabel::Ascending, "ascending"},
+                                 std::pair{FrameLabel::Descending, "descending"}};
 
 config::Settings usable_settings(const config::Settings& settings) {
   if (settings.profile != config::Settings{}.profile) return settings;
@@ -88,8 +93,7 @@ Table rates_table(const std::vector<DepthFrame>& frames, bool is_simulated) {
               {}};
   const std::string data = is_simulated ? "simulated" : "recorded";
   table.rows.push_back(rates_row("this, " + data, frames));
-  for (const auto& [label, name] :
-       {std::pair{FrameLabel::Ascending, "ascending"}, std::pair{FrameLabel::Descending, "descending"}}) {
+  for (const auto& [label, name] : kDirections) {
     std::vector<DepthFrame> some;
     std::copy_if(frames.begin(), frames.end(), std::back_inserter(some),
                  [l = label](const DepthFrame& f) { return f.label == l; });
@@ -137,19 +141,18 @@ void add_steps(const std::vector<DepthFrame>& frames, Result& result) {
       .x_label = "step, counted from the sensor",
       .y_label = "found [%]",
       .curves = {
-          {.name = "ascending"},
-          {.name = "descending"},
+          {.name = kDirections[0].second},
+          {.name = kDirections[1].second},
           {.name = "paper, ascending", .x = {1, 2, 3, 4, 5}, .y = {100, 100, 100, 100, 100}, .from_paper = true}}};
   for (std::size_t position = 0; position < kStepPositions; ++position) {
     std::vector<Cell> row{static_cast<double>(position + 1)};
-    std::size_t curve = 0;
-    for (const FrameLabel label : {FrameLabel::Ascending, FrameLabel::Descending}) {
+    for (std::size_t i = 0; i < kDirections.size(); ++i) {
+      const FrameLabel label = kDirections[i].first;
       const StepRate rate = step_rate(frames, label, position);
       const Cell share = percentage(rate.found, rate.shown);
       const bool does_paper_tell = position < (label == FrameLabel::Ascending ? kPaperAscending : kPaperDescending);
       row.insert(row.end(), {static_cast<double>(rate.shown), share, does_paper_tell ? Cell{100.0} : Cell{}});
-      if (rate.shown > 0) chart.curves[curve].add(static_cast<double>(position + 1), std::get<double>(share));
-      ++curve;
+      if (rate.shown > 0) chart.curves[i].add(static_cast<double>(position + 1), std::get<double>(share));
     }
     table.rows.push_back(std::move(row));
   }
@@ -157,10 +160,7 @@ void add_steps(const std::vector<DepthFrame>& frames, Result& result) {
   result.charts.push_back(std::move(chart));
 }
 
-struct Spread {
-  double mean = 0.0, deviation = 0.0;
-};
-
+// The deviation is that of all values, not of a sample as in spread_of().
 Spread spread(const std::vector<double>& values) {
   Spread result;
   const auto n = static_cast<double>(values.size());
@@ -182,14 +182,13 @@ Table errors_table(const std::vector<DepthFrame>& frames) {
                {"heading", "deg", 2},
                {"heading_sd", "deg", 2}},
               {}};
-  for (const auto& [label, name] :
-       {std::pair{FrameLabel::Ascending, "ascending"}, std::pair{FrameLabel::Descending, "descending"}}) {
+  for (const auto& [label, name] : kDirections) {
     std::vector<double> height, depth, heading;
     for (const DepthFrame& frame : frames) {
       if (frame.label != label || !frame.is_found) continue;
-      height.push_back(1e3 * std::abs(*frame.height_error_m));
-      depth.push_back(1e3 * std::abs(*frame.depth_error_m));
-      heading.push_back(180.0 / std::numbers::pi * std::abs(*frame.heading_error_rad));
+      height.push_back(kMillimetres * std::abs(*frame.height_error_m));
+      depth.push_back(kMillimetres * std::abs(*frame.depth_error_m));
+      heading.push_back(kDegrees * std::abs(*frame.heading_error_rad));
     }
     std::vector<Cell> row{std::string(name), static_cast<double>(height.size())};
     for (const auto* values : {&height, &depth, &heading}) {
