@@ -11,6 +11,7 @@
 
 #include "ipc/cloud_file.hpp"
 #include "tests/tools/cli_process.hpp"
+#include "tests/tools/temporary_folder.hpp"
 
 namespace stairway {
 namespace {

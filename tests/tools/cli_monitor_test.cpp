@@ -9,6 +9,7 @@
 #include "ipc/message_codec.hpp"
 #include "tests/ipc/message_fixtures.hpp"
 #include "tests/tools/cli_process.hpp"
+#include "tests/tools/temporary_folder.hpp"
 #include "tools/stairway/daemon_news.hpp"
 
 namespace stairway {

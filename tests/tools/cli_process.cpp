@@ -7,24 +7,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
+#include "tests/tools/temporary_folder.hpp"
+
 namespace stairway::test {
-
-TemporaryFolder::TemporaryFolder() {
-  static std::atomic<int> count{0};
-  path_ = std::filesystem::temp_directory_path() /
-          ("stairway_cli_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
-  std::filesystem::create_directory(path_);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 Outcome run_stairway(const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
@@ -47,12 +34,5 @@ Outcome run_stairway(const std::vector<std::string>& arguments) {
   ::waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
 }
-
-std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
-
-void write_text(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
 }  // namespace stairway::test

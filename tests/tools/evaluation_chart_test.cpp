@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "tests/tools/cli_process.hpp"
+#include "tests/tools/temporary_folder.hpp"
 #include "tools/evaluation/axis.hpp"
 #include "tools/evaluation/chart_drawing.hpp"
 

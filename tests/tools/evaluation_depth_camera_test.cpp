@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: The stairwayd authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "ipc/cloud_file.hpp"
+#include "tests/tools/temporary_folder.hpp"
 #include "tools/evaluation/depth_camera.hpp"
 #include "tools/sim/helmet_scene.hpp"
 
@@ -48,20 +46,17 @@ TEST(DepthCameraExperiment, tells_rates_steps_and_errors_beside_the_paper) {
 }
 
 TEST(DepthCameraExperiment, takes_the_frames_of_a_folder_instead) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("stairway-depth-camera-" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   const sim::HelmetScene view = sim::random_helmet_scene(1002, sim::HelmetSubject::Ascending);
   const sim::DepthCameraOptions camera;
   const auto image = simulate_depth_image(sim::build_scene(view.scene), view.pose, camera, 1002);
-  ASSERT_TRUE(ipc::write_ply(folder / "a.ply", sim::to_cloud(image, camera.intrinsics, view.pose), {}));
-  std::ofstream(folder / "labels.csv") << "file,stairs\na.ply,ascending\na.ply,none\n";
+  ASSERT_TRUE(ipc::write_ply(folder.path("a.ply"), sim::to_cloud(image, camera.intrinsics, view.pose), {}));
+  test::write_text(folder.path("labels.csv"), "file,stairs\na.ply,ascending\na.ply,none\n");
   Request request;
-  request.data = folder;
+  request.data = folder.path();
   const Result result = run_depth_camera(request);
-  std::ofstream(folder / "labels.csv") << "file,stairs\nb.ply,ascending\n";
+  test::write_text(folder.path("labels.csv"), "file,stairs\nb.ply,ascending\n");
   EXPECT_THROW(run_depth_camera(request), std::runtime_error);
-  std::filesystem::remove_all(folder);
   expect_full_rows(result);
   const auto& rates = table(result, "depth-camera-rates").rows;
   EXPECT_EQ(std::get<double>(rates[0][3]), 100.0);

@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: The stairwayd authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 
+#include "tests/tools/temporary_folder.hpp"
 #include "tools/evaluation/depth_frame.hpp"
 #include "tools/evaluation/depth_set.hpp"
 
@@ -17,29 +15,25 @@ namespace {
 
 class DepthSet : public ::testing::Test {
  protected:
-  DepthSet() { std::filesystem::create_directories(folder_); }
-  ~DepthSet() override { std::filesystem::remove_all(folder_); }
-
-  void write(const std::string& text) const { std::ofstream(folder_ / "labels.csv") << text; }
+  void write(const std::string& text) const { test::write_text(folder_.path("labels.csv"), text); }
 
   std::string failure() const {
     try {
-      read_labels(folder_);
+      read_labels(folder_.path());
     } catch (const std::runtime_error& error) {
       return error.what();
     }
     return {};
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("stairway-depth-set-" + std::to_string(::getpid()));
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(DepthSet, names_clouds_labels_and_gravity) {
   write("# indoors\nfile,stairs,gx,gy,gz\na.pcd,ascending,0,9.8,0\r\n\nsub/b.ply,none,,,\nc.pcd,descending\n");
-  const auto frames = read_labels(folder_);
+  const auto frames = read_labels(folder_.path());
   ASSERT_EQ(frames.size(), 3U);
-  EXPECT_EQ(frames[0].cloud, folder_ / "a.pcd");
+  EXPECT_EQ(frames[0].cloud, folder_.path("a.pcd"));
   EXPECT_EQ(frames[0].label, FrameLabel::Ascending);
   ASSERT_TRUE(frames[0].gravity);
   EXPECT_EQ(*frames[0].gravity, Eigen::Vector3d(0, 9.8, 0));
