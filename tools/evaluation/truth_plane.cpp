@@ -15,6 +15,8 @@ namespace stairway::evaluation {
 namespace {
 
 constexpr double kTiny_m = 1e-6;
+// Files hold corners in single precision, some in six or seven digits.
+constexpr double kSamePlace_m = 1e-5;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -24,10 +26,10 @@ bool overlap(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1, const Eigen::
   const double length = (a1 - a0).norm();
   const Eigen::Vector3d along = (a1 - a0) / length;
   const auto off_line = [&](const Eigen::Vector3d& p) { return along.cross(p - a0).norm(); };
-  if (off_line(b0) > kTiny_m || off_line(b1) > kTiny_m) return false;
+  if (off_line(b0) > kSamePlace_m || off_line(b1) > kSamePlace_m) return false;
   const double s0 = along.dot(b0 - a0);
   const double s1 = along.dot(b1 - a0);
-  return std::min(length, std::max(s0, s1)) - std::max(0.0, std::min(s0, s1)) > kTiny_m;
+  return std::min(length, std::max(s0, s1)) - std::max(0.0, std::min(s0, s1)) > kSamePlace_m;
 }
 
 bool share_part_of_an_edge(const sim::Triangle& a, const sim::Triangle& b) {
@@ -35,6 +37,18 @@ bool share_part_of_an_edge(const sim::Triangle& a, const sim::Triangle& b) {
     for (std::size_t k = 0; k < 3; ++k)
       if (overlap(a.corners[i], a.corners[(i + 1) % 3], b.corners[k], b.corners[(k + 1) % 3])) return true;
   return false;
+}
+
+bool lies_in_plane_of(const sim::Triangle& a, const sim::Triangle& b) {
+  const Eigen::Vector3d normal = b.normal();
+  return std::ranges::all_of(a.corners, [&](const Eigen::Vector3d& corner) {
+    return std::abs(normal.dot(corner - b.corners[0])) <= kSamePlace_m;
+  });
+}
+
+// The normal of a sliver is far less exact than its corners: it is enough that one lies in the plane of the other.
+bool are_coplanar(const sim::Triangle& a, const sim::Triangle& b) {
+  return lies_in_plane_of(a, b) || lies_in_plane_of(b, a);
 }
 
 Eigen::Vector2d nearest_on_edge(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
@@ -116,12 +130,9 @@ std::vector<TruthPlane> truth_planes(std::span<const sim::Triangle> triangles) {
     while (leader[i] != i) i = leader[i] = leader[leader[i]];
     return i;
   };
-  std::vector<Eigen::Vector3d> normals;
-  for (const sim::Triangle& triangle : triangles) normals.push_back(triangle.normal());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (normals[i].cross(normals[k]).norm() > kTiny_m) continue;
-      if (std::abs(normals[i].dot(triangles[k].corners[0] - triangles[i].corners[0])) > kTiny_m) continue;
+      if (!are_coplanar(triangles[i], triangles[k])) continue;
       const auto [first, last] = std::minmax({find(i), find(k)});
       if (first != last && share_part_of_an_edge(triangles[i], triangles[k])) leader[last] = first;
     }

@@ -39,8 +39,9 @@ class TruthPlane {
   Eigen::Vector2d low_, high_;
 };
 
-/// Joins triangles whose normals are the same, or opposite, and that share part of an edge (the paper's section "Ground
-/// Truth Generation"). Planes come in the order of their first triangles. Cost: quadratic in the triangles.
+/// Joins triangles that lie in one plane, to 10 um, whichever side they face, and share part of an edge (the paper's
+/// section "Ground Truth Generation"; it asks for equal or opposite normals, which corners in single precision do not
+/// give). Planes come in the order of their first triangles. Cost: quadratic in the triangles.
 std::vector<TruthPlane> truth_planes(std::span<const sim::Triangle> triangles);
 
 }  // namespace stairway::evaluation
