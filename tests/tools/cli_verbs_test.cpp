@@ -8,6 +8,8 @@
 #include "ipc/cloud_file.hpp"
 #include "tests/tools/cli_process.hpp"
 #include "tests/tools/temporary_folder.hpp"
+#include "tools/sim/scene_file.hpp"
+#include "tools/sim/stl_file.hpp"
 
 namespace stairway {
 namespace {
@@ -71,12 +73,27 @@ TEST(SimulateVerb, seed_decides_the_bytes) {
   EXPECT_NE(cloud("2"), first);
 }
 
+TEST(SimulateVerb, writes_the_scene_and_its_stairway_as_triangles) {
+  const TemporaryFolder folder;
+  const auto outcome = run_stairway({"simulate", "open-risers", "--disk-period", "1", "-o", folder.path("a.ply"),
+                                     "--mesh", folder.path("room.stl"), "--model", folder.path("stairs.stl")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const sim::SceneSpec spec = sim::load_scene("open-risers");
+  EXPECT_TRUE(test::read_text(folder.path("room.stl")) == sim::encode_stl(sim::build_scene(spec).mesh));
+  EXPECT_TRUE(test::read_text(folder.path("stairs.stl")) == sim::encode_stl(sim::flight_model(spec.stairs.front())));
+}
+
 TEST(SimulateVerb, trouble_is_named_and_told_by_the_exit_code) {
+  const TemporaryFolder folder;
   const std::tuple<std::vector<std::string>, int, std::string> table[] = {
       {{"spiral"}, 2, "--output"},
       {{"spiral", "--disk-period", "0.5", "-o", "a.ply"}, 2, "0.5"},
       {{"spiral", "--seed", "-4", "-o", "a.ply"}, 2, "--seed"},
       {{"spyral", "-o", "a.ply"}, 1, "spyral"},
+      {{"empty-room", "-o", "a.ply", "--model", "a.stl"}, 1, "has no stairway"},
+      {{"spiral", "--disk-period", "1", "-o", folder.path("a.ply"), "--mesh", "/no/such/folder/a.stl"},
+       1,
+       "/no/such/folder/a.stl"},
       {{"spiral", "--disk-period", "1", "-o", "/no/such/folder/a.ply"}, 1, "/no/such/folder/a.ply"},
   };
   for (const auto& [arguments, exit_code, named] : table) {

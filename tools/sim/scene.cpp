@@ -77,7 +77,7 @@ std::string SceneSpec::problem() const {
 
 Scene build_scene(const SceneSpec& spec) {
   if (const std::string problem = spec.problem(); !problem.empty()) throw std::invalid_argument{problem};
-  Scene scene{.name = spec.name, .mesh = {}, .truths = {}, .mount = spec.mount};
+  Scene scene{.name = spec.name, .mesh = {}, .truths = {}, .mount = spec.mount, .stairs = spec.stairs};
   std::vector<Outline> floor{outline_of(spec.room)};
   std::vector<Outline> ceiling = floor;
   for (const auto& stairs : spec.stairs) {

@@ -40,6 +40,7 @@ struct Scene {
   Mesh mesh;                                ///< scene frame = `base` of a robot that stands level [m]
   std::vector<detect::Stairway> truths;     ///< in the order of the specification
   std::optional<scan::MountOptions> mount;  ///< as in the specification
+  std::vector<StairSpec> stairs;            ///< likewise
 };
 
 /// Builds the meshes. A descending flight gets an opening in the floor with a shaft below it, and an ascending flight

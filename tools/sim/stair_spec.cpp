@@ -263,4 +263,11 @@ Flight build_flight(const StairSpec& spec) {
   return flight;
 }
 
+Mesh flight_model(StairSpec spec) {
+  spec.position.setZero();
+  spec.heading_rad = spec.level_m = 0.0;
+  spec.descending = false;
+  return build_flight(spec).mesh;
+}
+
 }  // namespace stairway::sim

@@ -56,4 +56,9 @@ struct Flight {
 /// Throws std::invalid_argument with problem() when the flight cannot be built.
 Flight build_flight(const StairSpec& spec);
 
+/// The flight alone and in its own frame, as a CAD model would state it: going up along x, which begins at the first
+/// nosing; y to the left, 0 at the middle of that nosing; z up from the floor at its foot [m]. Where the flight stands,
+/// and whether one looks at it from above, makes no difference. Throws as build_flight() does.
+Mesh flight_model(StairSpec spec);
+
 }  // namespace stairway::sim

@@ -15,6 +15,7 @@
 #include "ipc/stairway_json.hpp"
 #include "tools/sim/random_scenes.hpp"
 #include "tools/sim/scene_file.hpp"
+#include "tools/sim/stl_file.hpp"
 #include "tools/sim/sweep.hpp"
 #include "tools/stairway/arguments.hpp"
 #include "tools/stairway/marked_cloud.hpp"
@@ -30,6 +31,8 @@ struct Arguments {
   std::string scene;
   std::string output;
   std::string truth;
+  std::string mesh;
+  std::string model;
   std::optional<int> seed;
   std::optional<double> disk_period_s;
   double roll_deg = 0.0;
@@ -52,6 +55,17 @@ bool write_line(const std::string& path, const std::string& line) {
   return file.good();
 }
 
+bool write_meshes(const sim::Scene& scene, const Arguments& arguments) {
+  try {
+    if (!arguments.mesh.empty()) sim::write_stl(arguments.mesh, scene.mesh);
+    if (!arguments.model.empty()) sim::write_stl(arguments.model, sim::flight_model(scene.stairs.front()));
+  } catch (const sim::StlFileError& error) {
+    report_error(error.what());
+    return false;
+  }
+  return true;
+}
+
 scan::PointCloud sweep_in(const sim::Scene& scene, const Arguments& arguments, const config::Settings& settings) {
   const int seed = arguments.seed.value_or(settings.simulate.seed);
   return simulate_sweep(
@@ -67,6 +81,10 @@ int simulate(const Arguments& arguments, const config::Settings& settings) {
     report_error(scene.error().text);
     return kExitFailed;
   }
+  if (!arguments.model.empty() && scene->stairs.empty()) {
+    report_error(fmt::format("{}: has no stairway to write to {}", arguments.scene, arguments.model));
+    return kExitFailed;
+  }
   StatusLine status;
   status.show(fmt::format("{}: simulating ...", arguments.scene));
   const scan::PointCloud cloud = sweep_in(*scene, arguments, settings);
@@ -78,6 +96,7 @@ int simulate(const Arguments& arguments, const config::Settings& settings) {
     return kExitFailed;
   }
   if (!arguments.truth.empty() && !write_line(arguments.truth, truth)) return kExitFailed;
+  if (!write_meshes(*scene, arguments)) return kExitFailed;
   if (arguments.format == Format::Json) {
     print_json_line(truth);
   } else {
@@ -129,6 +148,13 @@ Action declare_simulate(CLI::App& command) {
   command.add_option("-o,--output", arguments->output, "the cloud: binary .pcd or .ply")->type_name("FILE");
   command.add_option("--truth", arguments->truth, "the true stairways, in the form of stairway detect --format json")
       ->type_name("FILE");
+  command
+      .add_option("--mesh", arguments->mesh, "everything in the scene as triangles, in the frame of the truth: .stl")
+      ->type_name("FILE");
+  command
+      .add_option("--model", arguments->model,
+                  "the first stairway alone and in its own frame, as stairway evaluate --model takes it: .stl")
+      ->type_name("FILE");
   declare_simulation(command, *arguments);
   add_settings_options(command, arguments->settings);
   add_format_option(command, arguments->format);
@@ -137,6 +163,7 @@ Action declare_simulate(CLI::App& command) {
       "Examples:\n"
       "  stairway simulate --list\n"
       "  stairway simulate spiral -o spiral.pcd --truth spiral.json\n"
+      "  stairway simulate open-risers -o open.pcd --mesh room.stl --model stairs.stl\n"
       "  stairway simulate random-stairs:17 --seed 3 --disk-period 20 -o stairs.ply\n"
       "Exit codes: 0 done; 1 the scene could not be read or a file not written; 2 wrong usage or settings.");
   return [arguments] { return run(*arguments); };
