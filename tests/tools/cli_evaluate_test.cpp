@@ -35,6 +35,8 @@ TEST(EvaluateVerb, trouble_is_named_and_told_by_the_exit_code) {
       {{"all", "--set", "detector.voxel_mm=0"}, 2, "detector.voxel_mm"},
       {{"all", "--data", "/no/such/folder"}, 1, "/no/such/folder"},
       {{"all", "--plots", "/dev/null/plots"}, 1, "/dev/null/plots"},
+      {{"segmentation", "--model", "/no/such/stairs.stl"}, 1, "/no/such/stairs.stl: cannot be read"},
+      {{"segmentation", "--model", "/dev/null"}, 1, "/dev/null: "},
   };
   for (const auto& [arguments, exit_code, named] : table) {
     SCOPED_TRACE(::testing::PrintToString(arguments));

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
+#include "tests/tools/temporary_folder.hpp"
+#include "tools/evaluation/paper_stairways.hpp"
 #include "tools/evaluation/segmentation.hpp"
+#include "tools/sim/stl_file.hpp"
 
 namespace stairway::evaluation {
 namespace {
@@ -43,6 +47,23 @@ TEST(SegmentationExperiment, gives_the_four_measures_of_three_methods) {
   ASSERT_EQ(result.charts.size(), 2U);
   for (const Chart& chart : result.charts)
     for (const Curve& curve : chart.curves) EXPECT_EQ(curve.y.size(), chart.categories.size());
+}
+
+TEST(SegmentationExperiment, takes_a_model_from_a_file_as_it_takes_its_own) {
+  const test::TemporaryFolder folder;
+  Request request;
+  request.seed = 1000;
+  request.share = 0.01;  // one position, before stairway I
+  const auto own = run_segmentation(request).tables[0].rows;
+  request.model = folder.path("stairs.stl");
+  sim::write_stl(request.model, sim::flight_model(paper_stairways()[0].flight));
+  const Result result = run_segmentation(request);
+  EXPECT_EQ(result.tables[0].rows, own);
+  EXPECT_NE(result.notes.back().find(request.model.string()), std::string::npos);
+  sim::write_stl(request.model, sim::flight_model(paper_stairways()[2].flight));
+  EXPECT_NE(run_segmentation(request).tables[0].rows, own);
+  sim::write_stl(request.model, sim::build_scene(segmentation_scene(1000, 0)).mesh);
+  EXPECT_THROW(run_segmentation(request), std::runtime_error) << "a room is no stairway";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "detector/voxel_grid.hpp"
 #include "tools/evaluation/paper_stairways.hpp"
 #include "tools/evaluation/segmentation_truth.hpp"
+#include "tools/evaluation/stairway_model.hpp"
 #include "tools/sim/random.hpp"
 #include "tools/sim/sweep.hpp"
 
@@ -84,18 +86,34 @@ struct Position {
   PointTruth truth;
 };
 
-Position look(const Request& request, int number) {
-  const sim::SceneSpec spec = segmentation_scene(request.seed, number);
-  sim::SceneSpec empty = spec;
-  empty.stairs.clear();
-  const sim::Scene scene = sim::build_scene(spec);
+// The hall, and in it the stairway.
+struct Models {
+  sim::Scene hall;
+  sim::Mesh stairs;
+};
+
+Models models_of(sim::SceneSpec spec, const std::optional<sim::Mesh>& given) {
+  const sim::StairSpec flight = spec.stairs.front();
+  spec.stairs.clear();
+  Models models{.hall = sim::build_scene(spec), .stairs = {}};
+  Eigen::Isometry3d T_hall_model = Eigen::Isometry3d::Identity();
+  T_hall_model.translation().head<2>() = flight.position;
+  T_hall_model.rotate(Eigen::AngleAxisd(flight.heading_rad, Eigen::Vector3d::UnitZ()));
+  models.stairs.append(given ? *given : stairway_model(flight), T_hall_model);
+  return models;
+}
+
+Position look(const Request& request, const std::optional<sim::Mesh>& given, int number) {
+  const auto [hall, stairs] = models_of(segmentation_scene(request.seed, number), given);
+  sim::Scene scene = hall;
+  scene.mesh.append(stairs);
   const scan::PointCloud cloud =
       sim::simulate_sweep(scene, request.settings.mount, {}, {}, request.seed + static_cast<std::uint64_t>(number));
   Position position;
   position.thinned = detect::voxel_centroids(cloud, request.settings.detector.voxel_m);
-  position.planes = truth_planes(sim::build_flight(spec.stairs.front()).mesh.triangles());
-  position.truth = assign_points(position.thinned, position.planes,
-                                 truth_planes(sim::build_scene(empty).mesh.triangles()), sim::Bvh(scene.mesh));
+  position.planes = truth_planes(stairs.triangles());
+  position.truth =
+      assign_points(position.thinned, position.planes, truth_planes(hall.mesh.triangles()), sim::Bvh(scene.mesh));
   return position;
 }
 
@@ -208,16 +226,18 @@ sim::SceneSpec segmentation_scene(std::uint64_t seed, int position) {
 
 Result run_segmentation(const Request& request) {
   const int positions = shared_count(kPositions, request.share);
+  std::optional<sim::Mesh> given;
+  if (!request.model.empty()) given = read_stairway_model(request.model);
   AllSeries all;
   for (int number = 0; number < positions; ++number) {
     if (request.progress)
       request.progress(static_cast<double>(number) / positions,
                        fmt::format("position {} of {}", number + 1, positions));
-    const Position position = look(request, number);
+    const Position position = look(request, given, number);
     for (std::size_t i = 0; i < kMethods.size(); ++i)
       run_method(position, request.settings.detector.segmentation, kMethods[i], all[i]);
   }
-  return {
+  Result result{
       .tables = {measure_table(all), time_table(all)},
       .charts = {measure_chart(all), time_chart(all)},
       .notes = {
@@ -229,6 +249,9 @@ Result run_segmentation(const Request& request) {
           "nearer to it are left out.",
           "Times are measured one after the other in one thread, after thinning; the paper's are from another "
           "computer."}};
+  if (given)
+    result.notes.push_back(fmt::format("Every position is before the stairway of {}.", request.model.string()));
+  return result;
 }
 
 }  // namespace stairway::evaluation

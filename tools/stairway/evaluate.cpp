@@ -177,6 +177,10 @@ Action declare_evaluate(CLI::App& command) {
       ->type_name("DIR");
   command.add_option("--data", arguments->request.data, "recorded data, for experiments that can use them")
       ->type_name("DIR");
+  command
+      .add_option("--model", arguments->request.model,
+                  "STL of a stairway in metres, going up along x from its first nosing at x = 0, for segmentation")
+      ->type_name("FILE");
   add_settings_options(command, arguments->settings);
   add_format_option(command, arguments->format);
   command.footer(
@@ -186,7 +190,9 @@ Action declare_evaluate(CLI::App& command) {
       "  stairway evaluate series --share 0.2 --plots plots\n"
       "  stairway evaluate all --seed 50000 --format json > results.jsonl\n"
       "  stairway evaluate strategies --set detector.voxel_mm=20\n"
-      "Exit codes: 0 done; 1 an experiment failed, data could not be read or a chart not be written (the others are\n"
+      "  stairway evaluate segmentation --model stairs.stl\n"
+      "Exit codes: 0 done; 1 an experiment failed, data or a model could not be read or a chart not be written (the "
+      "others are\n"
       "still done); 2 wrong usage or settings, or an experiment that does not exist.");
   return [arguments] { return run(*arguments); };
 }
