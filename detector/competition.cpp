@@ -31,8 +31,7 @@ class Competition {
   CompetitionResult run() {
     const std::vector<Initialisation> starts = initialise_graphs(parts_, options_.initialisation);
     if (options_.strategy == Strategy::Greedy) {
-      for (const Initialisation& start : starts)
-        if (std::optional<Winner> candidate = confirmed(start)) claim(std::move(*candidate));
+      take_first(starts);
     } else {
       choose_best(starts);
     }
@@ -43,6 +42,16 @@ class Competition {
   }
 
  private:
+  // The planes of a stairway are off the list for those that follow.
+  void take_first(const std::vector<Initialisation>& starts) {
+    for (const Initialisation& start : starts) {
+      std::optional<Winner> candidate = confirmed(start);
+      if (!candidate) continue;
+      claim(std::move(*candidate));
+      grid_.remove_if([&](std::size_t part) { return is_taken(part); });
+    }
+  }
+
   void choose_best(const std::vector<Initialisation>& starts) {
     std::vector<Winner> candidates;
     for (const Initialisation& start : starts)
@@ -61,7 +70,6 @@ class Competition {
     Winner candidate{.graph = {}, .view = view_of(start.model)};
     candidate.graph =
         extend_graph(start.model, starting_sides(start, parts_), parts_, grid_, candidate.view, options_.extension);
-    if (!is_free(candidate.graph)) return std::nullopt;
     if (const std::string rule = broken_rule(candidate.graph, confirmation_for(candidate.view)); !rule.empty()) {
       remember(rule, candidate.graph);
       return std::nullopt;
@@ -117,7 +125,7 @@ class Competition {
 
   const std::vector<StairPart>& parts_;
   const CompetitionOptions& options_;
-  const PartGrid grid_;
+  PartGrid grid_;
   std::vector<bool> taken_;
   CompetitionResult result_;
   int most_steps_ = 0;

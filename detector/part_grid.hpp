@@ -24,6 +24,12 @@ class PartGrid {
   /// Fills `found` with the indices, rising, of all parts within `radius_m` of `place`, and of some that are farther.
   void around(const Eigen::Vector2d& place, double radius_m, std::vector<std::size_t>& found) const;
 
+  /// Parts for which `is_gone(index)` holds are not found any more. Cost: O(P).
+  template <class Predicate>
+  void remove_if(Predicate is_gone) {
+    std::erase_if(entries_, [&](const auto& entry) { return is_gone(entry.second); });
+  }
+
  private:
   using Cell = std::pair<std::int64_t, std::int64_t>;
   Cell cell_of(const Eigen::Vector2d& place) const;

@@ -38,6 +38,15 @@ TEST(Competition, finds_every_flight_once_with_every_strategy) {
   }
 }
 
+TEST(Competition, greedy_goes_on_without_the_planes_that_a_stairway_has_taken) {
+  std::vector<StairPart> parts = two_flights();
+  parts.back().region = parts.front().region;
+  const CompetitionResult result = run(parts, Strategy::Greedy);
+  ASSERT_EQ(result.winners.size(), 2U);
+  EXPECT_EQ(result.winners[0].graph.parts.size(), 7U);
+  EXPECT_EQ(result.winners[1].graph.parts.size(), 4U);
+}
+
 TEST(Competition, thorough_prefers_the_initialisation_that_fits_best) {
   // The first pair misleads: its upper riser is cut at the bottom, so h from the bottoms is wrong.
   const StairModel model = test::make_model(0.17, 0.29);
