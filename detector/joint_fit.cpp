@@ -51,9 +51,8 @@ Eigen::MatrixXd jacobian(const Residuals& residuals, const Unknowns& at) {
 // Weights fall with the square of the residual beyond two sigmas, so outliers are set aside.
 Eigen::VectorXd robust_weights(const Eigen::VectorXd& residuals) {
   constexpr double kInlier = 2.0;
-  const Eigen::VectorXd sizes = residuals.cwiseAbs();
-  const double scale = std::max(1.0, 1.4826 * median({sizes.begin(), sizes.end()}));
-  return (sizes / scale).unaryExpr([](double size) {
+  const double scale = std::max(1.0, robust_deviation({residuals.begin(), residuals.end()}, 0.0));
+  return (residuals.cwiseAbs() / scale).unaryExpr([](double size) {
     return size < kInlier ? 1.0 : kInlier * kInlier / (size * size);
   });
 }

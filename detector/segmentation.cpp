@@ -15,18 +15,27 @@ std::string SegmentationOptions::problem() const {
   return {};
 }
 
+int SegmentationOptions::min_points() const {
+  switch (method) {
+    case SegmentationMethod::SplitAndMerge:
+      return split_and_merge.min_points;
+    case SegmentationMethod::VoxelSac:
+      return voxel_sac.min_points;
+    case SegmentationMethod::RegionGrowing:
+      break;
+  }
+  return region_growing.min_points;
+}
+
 std::vector<PlaneRegion> segment(const scan::PointCloud& thinned, const SegmentationOptions& options,
                                  const StageListener& on_stage) {
-  const auto begin_stage = [&](std::string_view stage) {
-    if (on_stage) on_stage(stage);
-  };
   if (options.method == SegmentationMethod::SplitAndMerge) {
-    begin_stage("segmentation");
+    begin_stage(on_stage, "segmentation");
     return split_and_merge(thinned, options.split_and_merge);
   }
-  begin_stage("normals");
+  begin_stage(on_stage, "normals");
   SurfaceNormals surface = estimate_normals(thinned, options.normals);
-  begin_stage("segmentation");
+  begin_stage(on_stage, "segmentation");
   scan::PointCloud clean = thinned;
   const std::vector<std::uint32_t> kept = drop_ghosts(clean, surface, options.min_grazing_rad);
   std::vector<PlaneRegion> regions = options.method == SegmentationMethod::VoxelSac

@@ -35,6 +35,9 @@ struct SegmentationOptions {
 
   /// First problem found, worded for the person who set it; empty when usable.
   std::string problem() const;
+
+  /// A region of the chosen method has more points than this.
+  int min_points() const;
 };
 
 /// Splits a thinned cloud into planar regions.

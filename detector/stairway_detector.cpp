@@ -41,18 +41,6 @@ void explain_silence(std::optional<Rejection> fault, std::size_t regions, const 
                                   {"treads", treads}}});
 }
 
-int min_points(const SegmentationOptions& segmentation) {
-  switch (segmentation.method) {
-    case SegmentationMethod::SplitAndMerge:
-      return segmentation.split_and_merge.min_points;
-    case SegmentationMethod::VoxelSac:
-      return segmentation.voxel_sac.min_points;
-    case SegmentationMethod::RegionGrowing:
-      break;
-  }
-  return segmentation.region_growing.min_points;
-}
-
 FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
   return {.model = fit.model,
           .sides = fit.sides,
@@ -117,18 +105,15 @@ std::string DetectorOptions::problem() const {
 
 Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions& options,
                            const StageListener& on_stage) {
-  const auto begin_stage = [&](std::string_view stage) {
-    if (on_stage) on_stage(stage);
-  };
-  begin_stage("voxel_grid");
+  begin_stage(on_stage, "voxel_grid");
   const scan::PointCloud thinned = voxel_centroids(cloud, options.voxel_m);
   std::vector<PlaneRegion> regions = segment(thinned, options.segmentation, on_stage);
-  begin_stage("plane_finder");
+  begin_stage(on_stage, "plane_finder");
   regions = merge_fragments(thinned, std::move(regions), options.plane_finder, options.fragment_merging);
   const std::vector<StairPart> parts = find_parts(thinned, regions, options.plane_finder);
-  begin_stage("stair_graph");
+  begin_stage(on_stage, "stair_graph");
   const CompetitionResult competition = compete(parts, options.competition);
-  begin_stage("fit");
+  begin_stage(on_stage, "fit");
   Detection detection;
   if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
   std::vector<FittedStairway> fitted;
@@ -138,14 +123,14 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
     for (const Winner& winner : competition.winners) fitted.push_back(from_parts(winner, parts));
   }
   if (fitted.empty())
-    explain_silence(cloud_fault(cloud, thinned, regions, min_points(options.segmentation)), regions.size(), parts,
+    explain_silence(cloud_fault(cloud, thinned, regions, options.segmentation.min_points()), regions.size(), parts,
                     detection.rejected);
-  begin_stage("railing");
+  begin_stage(on_stage, "railing");
   fitted = without_duplicates(std::move(fitted));
   for (FittedStairway& stairway : fitted)
     stairway.railing =
         find_railing(thinned, stairway.model, stairway.sides, stairway.first, stairway.last, options.railing);
-  begin_stage("localisation");
+  begin_stage(on_stage, "localisation");
   for (const FittedStairway& stairway : fitted) detection.stairways.push_back(localise(stairway, options.localisation));
   return detection;
 }
