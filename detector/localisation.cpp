@@ -91,11 +91,6 @@ AnchorSide anchor_side(const Railing& railing) {
   return railing.left ? AnchorSide::Left : AnchorSide::Right;
 }
 
-Eigen::Vector3d anchor(const Nosing& nosing, AnchorSide side) {
-  if (side == AnchorSide::Middle) return 0.5 * (nosing.left + nosing.right);
-  return side == AnchorSide::Left ? nosing.left : nosing.right;
-}
-
 }  // namespace
 
 std::string LocalisationOptions::problem() const {
@@ -163,12 +158,10 @@ Stairway localise(const FittedStairway& fitted, const LocalisationOptions& optio
     const StepFrame step = model.step(number);
     stairway.nosings.push_back({step.from_step({.v = half}), step.from_step({.v = -half})});
   }
-  const Nosing& meeting =
-      stairway.direction == StairwayDirection::Ascending ? stairway.nosings.front() : stairway.nosings.back();
   stairway.railing_left = placed.railing.left;
   stairway.railing_right = placed.railing.right;
   stairway.anchor_side = anchor_side(placed.railing);
-  stairway.anchor = anchor(meeting, stairway.anchor_side);
+  stairway.anchor = stairway.met_nosing().at(stairway.anchor_side);
   return stairway;
 }
 

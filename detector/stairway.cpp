@@ -24,6 +24,15 @@ std::string_view to_string(AnchorSide side) {
   return "right";
 }
 
+Eigen::Vector3d Nosing::at(AnchorSide side) const {
+  if (side == AnchorSide::Middle) return middle();
+  return side == AnchorSide::Left ? left : right;
+}
+
+const Nosing& Stairway::met_nosing() const {
+  return direction == StairwayDirection::Ascending ? nosings.front() : nosings.back();
+}
+
 double Stairway::pitch() const { return std::atan2(step_height, step_depth); }
 
 }  // namespace stairway::detect

@@ -23,6 +23,10 @@ std::string_view to_string(AnchorSide side);
 struct Nosing {
   Eigen::Vector3d left = Eigen::Vector3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d middle() const { return 0.5 * (left + right); }
+  /// One of its ends or its middle.
+  Eigen::Vector3d at(AnchorSide side) const;
 };
 
 /// A stairway as the locomotion controller wants it; `base` frame, metres and radians.
@@ -46,6 +50,10 @@ struct Stairway {
   bool railing_right = false;
   std::vector<Nosing> nosings;  ///< every nosing, lowest first, the edge of the upper landing included
   double score = 0.0;           ///< eq 2; comparable only within one cloud
+
+  /// The nosing where the robot meets the stairway: the lowest of an ascending one, the highest of a descending one.
+  /// @pre there are nosings.
+  const Nosing& met_nosing() const;
 
   /// Inclination of the line of nosings [rad].
   double pitch() const;

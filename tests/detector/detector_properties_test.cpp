@@ -40,7 +40,7 @@ TEST_F(DetectorProperties, finds_the_simulated_flight) {
   EXPECT_EQ(found.direction, StairwayDirection::Ascending);
   expect_same(found, room().truth, 0.003);
   for (std::size_t i = 0; i < found.nosings.size(); ++i)
-    EXPECT_LT((test::middle(found.nosings[i]) - test::middle(room().truth.nosings[i])).norm(), 0.02);
+    EXPECT_LT((found.nosings[i].middle() - room().truth.nosings[i].middle()).norm(), 0.02);
   EXPECT_GT(found.step_height_sigma, 0.0);
   EXPECT_GT(found.step_depth_sigma, 0.0);
   EXPECT_GT(found.heading_sigma, 0.0);

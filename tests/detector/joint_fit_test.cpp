@@ -11,12 +11,11 @@ namespace stairway::detect {
 namespace {
 
 StairModel model_of(const Stairway& truth) {
-  const Nosing& first = truth.nosings.front();
   StairModel model;
   model.height_m = truth.step_height;
   model.depth_m = truth.step_depth;
   model.descent = -Eigen::Vector3d(std::cos(truth.heading), std::sin(truth.heading), 0.0);
-  model.nosing = 0.5 * (first.left + first.right);
+  model.nosing = truth.nosings.front().middle();
   return model;
 }
 

@@ -86,5 +86,16 @@ TEST(Localisation, reads_the_ends_off_the_outer_parts) {
   EXPECT_EQ(stairway.last, 7);
 }
 
+TEST(Stairway, is_met_at_its_lowest_nosing_from_below_and_at_its_highest_from_above) {
+  Stairway stairway;
+  for (const double x : {0.0, 0.3, 0.6}) stairway.nosings.push_back({.left = {x, 0.5, x}, .right = {x, -0.7, x}});
+  EXPECT_EQ(stairway.met_nosing().middle(), Eigen::Vector3d(0.0, 0.5 * (0.5 - 0.7), 0.0));
+  stairway.direction = StairwayDirection::Descending;
+  const Nosing& top = stairway.met_nosing();
+  EXPECT_EQ(top.at(AnchorSide::Left), Eigen::Vector3d(0.6, 0.5, 0.6));
+  EXPECT_EQ(top.at(AnchorSide::Right), Eigen::Vector3d(0.6, -0.7, 0.6));
+  EXPECT_EQ(top.at(AnchorSide::Middle), top.middle());
+}
+
 }  // namespace
 }  // namespace stairway::detect

@@ -38,8 +38,6 @@ inline scan::PointCloud simulate_room(std::uint64_t seed, double disk_period_s) 
   return sim::simulate_sweep(sim::build_scene(sim::random_room(seed)), {}, {}, sweep, seed);
 }
 
-inline Eigen::Vector3d middle(const Nosing& nosing) { return 0.5 * (nosing.left + nosing.right); }
-
 /// How far two headings differ [rad].
 inline double turn_between(double a, double b) { return std::abs(std::remainder(a - b, 2.0 * M_PI)); }
 

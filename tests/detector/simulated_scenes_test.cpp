@@ -16,13 +16,8 @@ namespace {
 // The detector was tuned on seeds from 1000 to 1999 and on none of these.
 constexpr std::uint64_t kFirstSeed = 50000;
 
-// Where the robot meets the stairway.
-const Nosing& meeting(const Stairway& stairway) {
-  return stairway.direction == StairwayDirection::Ascending ? stairway.nosings.front() : stairway.nosings.back();
-}
-
 double place_error(const Stairway& found, const Stairway& truth) {
-  return (test::middle(meeting(found)) - test::middle(meeting(truth))).norm();
+  return (found.met_nosing().middle() - truth.met_nosing().middle()).norm();
 }
 
 const Stairway* match(const Detection& detection, const Stairway& truth) {

@@ -11,14 +11,12 @@ namespace {
 
 constexpr double kSameStairway_m = 0.5;
 
-Eigen::Vector3d middle(const detect::Nosing& nosing) { return 0.5 * (nosing.left + nosing.right); }
-
 double mean_distance(const detect::Stairway& found, const detect::Stairway& truth) {
   double sum = 0.0;
   for (const detect::Nosing& nosing : found.nosings) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const detect::Nosing& other : truth.nosings)
-      nearest = std::min(nearest, (middle(nosing) - middle(other)).norm());
+      nearest = std::min(nearest, (nosing.middle() - other.middle()).norm());
     sum += nearest;
   }
   return sum / static_cast<double>(found.nosings.size());

@@ -11,25 +11,6 @@
 namespace stairway::evaluation {
 namespace {
 
-const detect::Nosing& anchor_nosing(const detect::Stairway& stairway) {
-  return stairway.direction == detect::StairwayDirection::Descending ? stairway.nosings.back()
-                                                                     : stairway.nosings.front();
-}
-
-Eigen::Vector3d middle(const detect::Nosing& nosing) { return 0.5 * (nosing.left + nosing.right); }
-
-Eigen::Vector3d place_at(const detect::Nosing& nosing, detect::AnchorSide side) {
-  switch (side) {
-    case detect::AnchorSide::Left:
-      return nosing.left;
-    case detect::AnchorSide::Right:
-      return nosing.right;
-    case detect::AnchorSide::Middle:
-      break;
-  }
-  return middle(nosing);
-}
-
 double turn_between(double from_rad, double to_rad) {
   return std::remainder(to_rad - from_rad, 2.0 * std::numbers::pi);
 }
@@ -37,10 +18,10 @@ double turn_between(double from_rad, double to_rad) {
 }  // namespace
 
 StairwayError error_of(const detect::Stairway& found, const detect::Stairway& truth) {
-  const detect::Nosing& nosing = anchor_nosing(truth);
+  const detect::Nosing& nosing = truth.met_nosing();
   const Eigen::Vector2d left = (nosing.left - nosing.right).head<2>().normalized();
   const Eigen::Vector2d ascent(left.y(), -left.x());
-  const Eigen::Vector3d off = found.anchor - place_at(nosing, found.anchor_side);
+  const Eigen::Vector3d off = found.anchor - nosing.at(found.anchor_side);
   return {.height_m = found.step_height - truth.step_height,
           .depth_m = found.step_depth - truth.step_depth,
           .width_m = found.width - truth.width,
@@ -50,7 +31,7 @@ StairwayError error_of(const detect::Stairway& found, const detect::Stairway& tr
           .along_m = off.head<2>().dot(ascent),
           .across_m = off.head<2>().dot(left),
           .up_m = off.z(),
-          .middle_m = (middle(anchor_nosing(found)) - middle(nosing)).head<2>().norm(),
+          .middle_m = (found.met_nosing().middle() - nosing.middle()).head<2>().norm(),
           .steps = static_cast<int>(found.nosings.size()) - static_cast<int>(truth.nosings.size()),
           .is_right_kind = found.kind == truth.kind,
           .is_right_direction = found.direction == truth.direction,

@@ -171,13 +171,9 @@ detect::Stairway make_truth(const StairSpec& spec, const std::vector<Place>& pla
     const Ends both = ends(place, spec.width_m);
     truth.nosings.push_back({at_height(both.left, place.z_m), at_height(both.right, place.z_m)});
   }
-  const detect::Nosing& meeting = spec.descending ? truth.nosings.back() : truth.nosings.front();
-  if (spec.railing_left != spec.railing_right) {
+  if (spec.railing_left != spec.railing_right)
     truth.anchor_side = spec.railing_left ? detect::AnchorSide::Left : detect::AnchorSide::Right;
-    truth.anchor = spec.railing_left ? meeting.left : meeting.right;
-  } else {
-    truth.anchor = (meeting.left + meeting.right) / 2;
-  }
+  truth.anchor = truth.met_nosing().at(truth.anchor_side);
   return truth;
 }
 

@@ -179,8 +179,7 @@ void draw_from_above(Canvas& canvas, const Panel& panel, const detect::Stairway&
   }
   for (const detect::Nosing& nosing : nosings) canvas.line(at(nosing.left), at(nosing.right), kNosing, 2.0);
 
-  const auto middle = [](const detect::Nosing& n) { return Eigen::Vector3d(0.5 * (n.left + n.right)); };
-  const Eigen::Vector2d from = at(middle(nosings.front())), to = at(middle(nosings.back()));
+  const Eigen::Vector2d from = at(nosings.front().middle()), to = at(nosings.back().middle());
   if ((to - from).norm() > 30.0 && stairway.kind == detect::StairwayKind::Straight) canvas.arrow(from, to, kInk, 1.5);
   canvas.disc(at(stairway.anchor), 6.5, kInk);
   canvas.disc(at(stairway.anchor), 4.0, {1.0, 1.0, 1.0});

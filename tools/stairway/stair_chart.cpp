@@ -10,20 +10,18 @@
 namespace stairway::tools {
 namespace {
 
-Eigen::Vector3d middle(const detect::Nosing& nosing) { return 0.5 * (nosing.left + nosing.right); }
-
 double angle_of(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
 }  // namespace
 
 StairChart::StairChart(const detect::Stairway& stairway)
-    : origin_(middle(stairway.nosings.front()).head<2>()),
+    : origin_(stairway.nosings.front().middle().head<2>()),
       ascent_(std::cos(stairway.heading), std::sin(stairway.heading)),
       turn_sign_(stairway.turn_per_step < 0.0 ? -1.0 : 1.0),
       axis_(find_axis(stairway)),
       half_width_m_(0.5 * stairway.width),
       foot_m_(stairway.nosings.front().left.z() - stairway.step_height) {
-  for (const detect::Nosing& nosing : stairway.nosings) nosings_.push_back(to_chart(middle(nosing)));
+  for (const detect::Nosing& nosing : stairway.nosings) nosings_.push_back(to_chart(nosing.middle()));
 }
 
 // The point nearest to the lines of all nosings, seen from above.
@@ -39,7 +37,7 @@ std::optional<StairChart::Axis> StairChart::find_axis(const detect::Stairway& st
   }
   if (A.determinant() < 1e-9) return std::nullopt;
   const Eigen::Vector2d centre = A.inverse() * b;
-  const Eigen::Vector2d first = middle(stairway.nosings.front()).head<2>() - centre;
+  const Eigen::Vector2d first = stairway.nosings.front().middle().head<2>() - centre;
   return Axis{centre, first.norm(), angle_of(first), stairway.step_height / std::abs(stairway.turn_per_step)};
 }
 

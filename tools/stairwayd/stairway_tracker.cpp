@@ -13,10 +13,7 @@ constexpr int kMaxMissedPasses = 3;
 
 // The middle of the nosing: the anchor itself changes its side with the railings that are seen.
 Eigen::Vector3d entry(const detect::Stairway& stairway) {
-  if (stairway.nosings.empty()) return stairway.anchor;
-  const bool is_ascending = stairway.direction == detect::StairwayDirection::Ascending;
-  const detect::Nosing& nosing = is_ascending ? stairway.nosings.front() : stairway.nosings.back();
-  return 0.5 * (nosing.left + nosing.right);
+  return stairway.nosings.empty() ? stairway.anchor : stairway.met_nosing().middle();
 }
 
 struct Pair {
