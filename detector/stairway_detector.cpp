@@ -59,8 +59,11 @@ Interval sides_past_railing(const scan::PointCloud& cloud, const scan::PointClou
                             const JointFit& fit, const DetectorOptions& options) {
   const Railing railing = find_railing(thinned, fit.model, fit.sides, fit.first, fit.last, options.railing);
   if (!railing.any()) return fit.sides;
-  const std::optional<JointFit> again =
-      fit_jointly(without_railing(cloud, fit.model, railing), winner.graph, fit.sides, winner.view, options.joint_fit);
+  // The fit has put the middle line of its model elsewhere than the graph has it.
+  const double aside = winner.graph.model.step(0).to_step(fit.model.nosing).v;
+  const Interval sides_of_graph{fit.sides.low + aside, fit.sides.high + aside};
+  const std::optional<JointFit> again = fit_jointly(without_railing(cloud, fit.model, railing), winner.graph,
+                                                    sides_of_graph, winner.view, options.joint_fit);
   if (!again) return fit.sides;
   const double shift = fit.model.step(0).to_step(again->model.nosing).v;
   Interval sides = fit.sides;
