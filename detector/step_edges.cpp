@@ -36,6 +36,24 @@ class EdgeStrips {
 
   std::vector<std::vector<Crossing>>& strips() { return strips_; }
 
+  /// What the edge at `place` may be off by because no line of sight passes nearer: where beams cross all strips alike,
+  /// all tell the same two places that the edge lies between.
+  double gap_sigma(double place) const {
+    double before = -kEdgeReach_m;
+    double beyond = kEdgeReach_m;
+    for (const std::vector<Crossing>& strip : strips_) {
+      for (const Crossing& crossing : strip) {
+        const double off = crossing.place - place;
+        if (off < 0.0) {
+          before = std::max(before, off);
+        } else {
+          beyond = std::min(beyond, off);
+        }
+      }
+    }
+    return (beyond - before) / std::sqrt(12.0);
+  }
+
   std::vector<EdgePlace> edges() {
     std::vector<EdgePlace> found;
     for (std::size_t i = 0; i < strips_.size(); ++i) {
@@ -122,8 +140,8 @@ std::optional<Estimate> end_of(const StepView& view, const Face& face, double en
   }
   constexpr double kFloor_m = 3e-4;
   std::optional<Estimate> place = common_place(rows.edges(), kFloor_m);
-  if (place) place->value *= outward;
-  return place;
+  if (!place) return std::nullopt;
+  return Estimate{outward * place->value, std::hypot(place->sigma, rows.gap_sigma(place->value))};
 }
 
 }  // namespace
@@ -146,7 +164,8 @@ std::optional<NosingSight> nosing_over_front(const StepView& view, double front_
   }
   const std::optional<Estimate> top = common_place(strips.edges(), kFloor_m);
   if (!top) return std::nullopt;
-  NosingSight sight = sight_over(view, view.front_u(), top->value, top->sigma, true);
+  const double sigma = std::hypot(top->sigma, strips.gap_sigma(top->value));
+  NosingSight sight = sight_over(view, view.front_u(), top->value, sigma, true);
   sight.sigma_m *= std::abs(sight.along_u);
   return sight;
 }
@@ -169,7 +188,8 @@ std::optional<EdgeMeasurement> nosing_over_tread(const StepView& view) {
   double chi2 = 0.0;
   for (const auto& [u, v] : points) chi2 += std::pow(u - line.value - line.turn * v, 2);
   const double n = static_cast<double>(points.size());
-  const double sigma = std::max(kFloor_m, std::sqrt(chi2 / std::max(1.0, n - 2.0) / n));
+  const double scatter = std::max(kFloor_m, std::sqrt(chi2 / std::max(1.0, n - 2.0) / n));
+  const double sigma = std::hypot(scatter, strips.gap_sigma(place->value));
   EdgeMeasurement edge{.nosing = sight_over(view, line.value, 0.0, sigma, false), .turn = {}};
   edge.nosing.sigma_m *= std::abs(edge.nosing.along_z);
   if (line.variance_v > 0.0) edge.turn = Estimate{line.turn, sigma / std::sqrt(line.variance_v)};
