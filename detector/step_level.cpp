@@ -13,11 +13,16 @@ namespace {
 
 constexpr double kTreadMargin = 0.2;  // share of a tread at its front and back that is not measured
 
-// Clear of the edges. From behind one looks over the next nosing, whose edge mixes with what lies below it.
+// Clear of the edges. From below one looks past the front, whose edge mixes with what lies beyond. From behind one
+// looks over the next nosing, whose edge mixes with what lies below it.
 bool lies_on_tread(const StepView& view, const StepPoint& p) {
   const double depth = view.depth_at(p.v);
   const double margin = kTreadMargin * depth;
-  if (!view.stands_behind_tread()) return p.u > view.front_u() + margin && p.u < view.front_u() + depth - margin;
+  if (!view.stands_behind_tread()) {
+    const bool is_clear = p.u > view.front_u() + margin && p.u < view.front_u() + depth - margin;
+    const bool looks_from_below = view.sensor() && view.sensor()->z < 0.0;
+    return is_clear && (!looks_from_below || view.at_front(p).z < -view.spot_radius_m());
+  }
   const double slope = (view.sensor()->z - p.z) / (view.sensor()->u - p.u);
   const double over_next = p.z + (depth - p.u) * slope - view.model().height_m;
   const double over_nosing = p.z - p.u * slope;
