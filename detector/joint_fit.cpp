@@ -281,8 +281,11 @@ class JointFitter {
   }
 
   // Posts and bystanders cut steps short, nothing makes them longer: the outer quartile of their ends is the flight's.
-  static std::optional<Estimate> outer_end(std::vector<double> ends, double outward) {
-    if (ends.size() < 2) return std::nullopt;
+  // Each counts only as far out as it is certain.
+  static std::optional<Estimate> outer_end(const std::vector<Estimate>& estimates, double outward) {
+    if (estimates.size() < 2) return std::nullopt;
+    std::vector<double> ends;
+    for (const Estimate& estimate : estimates) ends.push_back(estimate.value - outward * estimate.sigma);
     std::sort(ends.begin(), ends.end(), [&](double a, double b) { return outward * a > outward * b; });
     const double end = ends[ends.size() / 4];
     double scatter = 0.0;
@@ -292,14 +295,14 @@ class JointFitter {
 
   // Also puts the middle line into the middle of the sides.
   bool fit_sides() {
-    std::vector<double> rights;
-    std::vector<double> lefts;
+    std::vector<Estimate> rights;
+    std::vector<Estimate> lefts;
     for (const StepMeasurement& step : steps_) {
-      if (step.right_end) rights.push_back(step.right_end->value);
-      if (step.left_end) lefts.push_back(step.left_end->value);
+      if (step.right_end) rights.push_back(*step.right_end);
+      if (step.left_end) lefts.push_back(*step.left_end);
     }
-    const std::optional<Estimate> right = outer_end(std::move(rights), -1.0);
-    const std::optional<Estimate> left = outer_end(std::move(lefts), +1.0);
+    const std::optional<Estimate> right = outer_end(rights, -1.0);
+    const std::optional<Estimate> left = outer_end(lefts, +1.0);
     if (right) fit_.sides.low = right->value;
     if (left) fit_.sides.high = left->value;
     fit_.sides_sigma_m = std::hypot(right ? right->sigma : kUnmeasuredEnd_m, left ? left->sigma : kUnmeasuredEnd_m);
