@@ -16,12 +16,15 @@ namespace {
 enum Unknown { kAlong, kDepth, kHeight, kRise, kOverhang, kThickness, kHeading, kTurn, kTopBias, kUnknowns };
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
+constexpr double kMostOverhang_m = 0.06;
+
 StairModel moved(const StairModel& start, const Unknowns& change) {
   StairModel model = start;
   model.nosing += -change[kAlong] * start.descent + change[kHeight] * Eigen::Vector3d::UnitZ();
   model.depth_m += change[kDepth];
   model.height_m += change[kRise];
-  model.overhang_m += change[kOverhang];
+  // Held within what stairs have at every trial: cut off afterwards, the nosing would keep what it gave the overhang.
+  model.overhang_m = std::clamp(start.overhang_m + change[kOverhang], 0.0, kMostOverhang_m);
   model.tread_thickness_m += change[kThickness];
   model.descent = Eigen::AngleAxisd(change[kHeading], Eigen::Vector3d::UnitZ()) * start.descent;
   if (start.is_spiral()) model.turn_rad += change[kTurn];
@@ -95,7 +98,6 @@ constexpr double kGraphSigma_rad = 0.03;
 constexpr double kHeadingStep_rad = 0.1;
 constexpr double kUsualTopBias_m = 0.015;
 constexpr double kUsualOverhang_m = 0.015;
-constexpr double kMostOverhang_m = 0.06;
 constexpr double kUsualThickness_m = 0.04;
 
 // How far a measured step lies from that of a model, in sigmas.
@@ -274,7 +276,6 @@ class JointFitter {
   void fit_steps() {
     const Solution solution = solve([this](const Unknowns& change) { return residuals(change); });
     fit_.model = moved(fit_.model, solution.change);
-    fit_.model.overhang_m = std::clamp(fit_.model.overhang_m, 0.0, kMostOverhang_m);
     fit_.sigmas = {.height_m = solution.sigmas[kRise],
                    .depth_m = solution.sigmas[kDepth],
                    .heading_rad = solution.sigmas[kHeading]};
