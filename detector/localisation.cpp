@@ -79,11 +79,23 @@ FittedStairway grounded(FittedStairway stairway, const LocalisationOptions& opti
   if (stairway.on_landing) return stairway;
   const StairModel& model = stairway.model;
   if (stairway.view == View::FromBelow) {
-    stairway.first = std::min(step_at(kGround_m + model.height_m, model, stairway.first, options), stairway.last);
+    stairway.first =
+        std::min(step_at(stairway.floor_m + model.height_m, model, stairway.first, options), stairway.last);
   } else {
     stairway.last = std::max(step_at(kGround_m, model, stairway.last, options), stairway.first);
   }
   return stairway;
+}
+
+// Under the steps of a flight or under the landing that follows on its last one.
+bool is_under(const Eigen::Vector3d& nosing, const FittedStairway& flight) {
+  const double width = flight.sides.length();
+  const StepPoint p = flight.model.step(flight.last).to_step(nosing);
+  if (p.z > 0.5 * flight.model.height_m) return false;
+  if (p.u >= 0.0) return p.u < width && p.v > flight.sides.low - width && p.v < flight.sides.high + width;
+  const double run = (flight.last - flight.first) * flight.model.depth_m;
+  const double surface = p.u / flight.model.depth_m * flight.model.height_m;
+  return p.u > -run && p.z < surface && p.v > flight.sides.low && p.v < flight.sides.high;
 }
 
 AnchorSide anchor_side(const Railing& railing) {
@@ -132,6 +144,22 @@ std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stair
     }
   }
   return kept;
+}
+
+void begin_on_landings(std::vector<FittedStairway>& stairways) {
+  const auto is_flight = [](const FittedStairway& s) { return s.view == View::FromBelow && !s.model.is_spiral(); };
+  for (FittedStairway& upper : stairways) {
+    if (!is_flight(upper) || upper.on_landing) continue;
+    for (const FittedStairway& lower : stairways) {
+      const double landing_m = lower.model.step(lower.last).nosing.z();
+      const double begin_m = upper.model.step(upper.first).nosing.z();
+      if (&lower == &upper || !is_flight(lower) || landing_m > begin_m - 0.5 * upper.model.height_m) continue;
+      bool passes_under = false;
+      for (int number = upper.first - 1; !passes_under && mid_nosing(upper, number).z() > kGround_m; --number)
+        passes_under = is_under(mid_nosing(upper, number), lower);
+      if (passes_under) upper.floor_m = std::max(upper.floor_m, landing_m);
+    }
+  }
 }
 
 Stairway localise(const FittedStairway& fitted, const LocalisationOptions& options) {

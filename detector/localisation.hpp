@@ -26,6 +26,7 @@ struct FittedStairway {
   int first = 0;            ///< number of the lowest step seen
   int last = 0;             ///< and of the highest
   bool on_landing = false;  ///< begins on a floor that was seen, so it is not continued to the ground
+  double floor_m = 0.0;     ///< level of the floor it is continued to
   View view = View::FromBelow;
   double score = 0.0;  ///< eq 2
   int evidence = 0;    ///< parts, or measurements of steps, that bear it out
@@ -40,10 +41,15 @@ FittedStairway from_parts(const Winner& winner, const std::vector<StairPart>& pa
 /// The result is ordered by falling evidence.
 std::vector<FittedStairway> without_duplicates(std::vector<FittedStairway> stairways);
 
+/// An ascending stairway that, continued down to the ground, would pass under the upper end of another one or under the
+/// landing there (taken to be as deep as that one is wide, and to reach as far to both sides) begins on that landing.
+/// Cost: square in the number of stairways.
+void begin_on_landings(std::vector<FittedStairway>& stairways);
+
 /// Turns a fit into the stairway a robot can climb: first step on the ground, ends, anchor and every nosing.
 ///
-/// An ascending stairway that seems to begin above the ground (z = 0) is continued down to it; steps at or below it are
-/// dropped. A descending one is continued up to it: its last nosing is the edge of the floor the robot stands on.
+/// An ascending stairway that seems to begin above its floor is continued down to it; steps at or below it are dropped.
+/// A descending one is continued up to it: its last nosing is the edge of the floor the robot stands on.
 ///
 /// The anchor is the end of the nosing where the one railing is seen, for what is seen is not hidden; its middle when
 /// railings are seen on both sides or on none.

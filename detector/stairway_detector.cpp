@@ -130,6 +130,7 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
                     detection.rejected);
   begin_stage(on_stage, "railing");
   fitted = without_duplicates(std::move(fitted));
+  begin_on_landings(fitted);
   for (FittedStairway& stairway : fitted)
     stairway.railing =
         find_railing(thinned, stairway.model, stairway.sides, stairway.first, stairway.last, options.railing);

@@ -53,6 +53,34 @@ TEST(Localisation, does_not_invent_a_whole_storey) {
   EXPECT_NEAR(stairway.anchor.z(), 16 * 0.17, 1e-9);
 }
 
+// A flight of six steps to 1.02 m, and one that was seen from `first_z_m` on; it goes up to the left from its landing.
+std::vector<FittedStairway> flights_about_a_landing(double x, double first_z_m) {
+  FittedStairway lower = fitted(0, 5);
+  FittedStairway upper = fitted(0, 3);
+  upper.model.descent = -Eigen::Vector3d::UnitY();
+  upper.model.nosing = {x, 0.6 + (first_z_m - 1.19) / 0.17 * 0.29, first_z_m};
+  return {lower, upper};
+}
+
+TEST(Localisation, begins_a_flight_on_the_landing_of_another_one) {
+  for (const double first_z_m : {1.19, 1.53}) {
+    SCOPED_TRACE(first_z_m);
+    std::vector<FittedStairway> flights = flights_about_a_landing(4.0, first_z_m);
+    begin_on_landings(flights);
+    EXPECT_NEAR(localise(flights[0]).nosings.front().left.z(), 0.17, 1e-9);
+    EXPECT_NEAR(localise(flights[1]).nosings.front().left.z(), 1.19, 1e-9);
+  }
+}
+
+TEST(Localisation, lets_a_flight_beside_another_one_begin_on_the_ground) {
+  for (const double x : {6.0, 1.0}) {
+    SCOPED_TRACE(x);
+    std::vector<FittedStairway> flights = flights_about_a_landing(x, 1.19);
+    begin_on_landings(flights);
+    EXPECT_NEAR(localise(flights[1]).nosings.front().left.z(), 0.17, 1e-9);
+  }
+}
+
 TEST(Localisation, drops_steps_below_the_ground) { EXPECT_EQ(localise(fitted(-2, 9)).nosings.size(), 10U); }
 
 TEST(Localisation, keeps_one_of_two_descriptions_of_the_same_stairway) {
