@@ -18,7 +18,7 @@ namespace stairway::detect {
 
 /// The three ways of the paper to find planar regions.
 enum class SegmentationMethod {
-  RegionGrowing,  ///< Alg. 1; the most accurate one, which the paper chose for the detection
+  RegionGrowing,  ///< Alg. 1; in the paper the most accurate one, and chosen for the detection
   SplitAndMerge,  ///< Alg. 2; the fastest one, as it needs no normals
   VoxelSac,       ///< Alg. 3
 };
