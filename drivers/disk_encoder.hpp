@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "drivers/encoder/encoder_session.hpp"
+#include "drivers/ports/edge_port.hpp"
+
+namespace stairway::drivers {
+
+/// The disk's quadrature encoder on a port: opens the port, opens it again after it was lost (0.5 s doubling to 10 s,
+/// without end), and moves edges to the session. It has no thread; one thread calls `poll` in a loop.
+class DiskEncoder {
+ public:
+  /// Opens a port, or gives null while the lines are not to be had. Must not throw.
+  using PortOpener = std::function<std::unique_ptr<EdgePort>()>;
+  /// Time on the line of the port's stamps.
+  using Clock = std::function<HostStamp()>;
+
+  /// @pre  options.problem() is empty.
+  DiskEncoder(PortOpener open_port, Clock now, const EncoderOptions& options);
+
+  /// Waits at most `timeout` for something to happen and gives what happened, in order. Samples come in the order of
+  /// their stamps, one per edge of A and B; at rest the last angle is repeated every 50 ms, so that a disk at rest can
+  /// be told from a dead encoder.
+  std::vector<EncoderEvent> poll(std::chrono::nanoseconds timeout);
+
+  const EncoderSession& session() const { return session_; }
+  bool is_port_open() const { return port_ != nullptr; }
+
+ private:
+  PortOpener open_port_;
+  Clock now_;
+  EncoderSession session_;
+  std::unique_ptr<EdgePort> port_;
+};
+
+}  // namespace stairway::drivers

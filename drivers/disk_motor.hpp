@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "drivers/canopen/motor_session.hpp"
+#include "drivers/ports/can_port.hpp"
+
+namespace stairway::drivers {
+
+/// The disk's CiA 402 drive on a port: opens the port, opens it again after it was lost (0.5 s doubling to 10 s,
+/// without end), and moves frames between it and the session. It has no thread; one thread calls everything.
+class DiskMotor {
+ public:
+  /// Opens a port, or gives null while the interface is absent. Must not throw.
+  using PortOpener = std::function<std::unique_ptr<CanPort>()>;
+  /// Time on the line of the port's arrival stamps.
+  using Clock = std::function<HostStamp()>;
+
+  /// @pre  options.problem() is empty.
+  DiskMotor(PortOpener open_port, Clock now, const MotorOptions& options);
+  /// stop()
+  ~DiskMotor();
+  DiskMotor(const DiskMotor&) = delete;
+  DiskMotor& operator=(const DiskMotor&) = delete;
+
+  /// Waits at most `timeout` for something to happen and gives what happened, in order; often nothing.
+  std::vector<MotorEvent> poll(std::chrono::nanoseconds timeout);
+
+  /// From now on, as soon as the drive is ready; 0 brakes and leaves the drive enabled [rad/s of the disk].
+  void set_speed(double speed_rad_s) { session_.set_speed(speed_rad_s); }
+
+  /// Runs the stop sequence: speed 0, waits for standstill at most `stop_timeout_s`, switches the drive off, leaves it
+  /// pre-operational. Returns early when the bus takes no frames; the drive then stops by its own heartbeat watch.
+  /// @return Whether the drive confirmed standstill.
+  bool stop();
+
+  const MotorSession& session() const { return session_; }
+  bool is_port_open() const { return port_ != nullptr; }
+
+ private:
+  PortOpener open_port_;
+  Clock now_;
+  MotorSession session_;
+  std::unique_ptr<CanPort> port_;
+};
+
+}  // namespace stairway::drivers
