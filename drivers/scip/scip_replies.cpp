@@ -45,7 +45,7 @@ bool is_status_character(char c) { return (c >= '0' && c <= '9') || (c >= 'A' &&
 
 bool contains_ignoring_case(std::string_view text, std::string_view lower_case) {
   const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + ('a' - 'A') : a) == b; };
-  return !std::ranges::search(text, lower_case, is_same).empty();
+  return std::search(text.begin(), text.end(), lower_case.begin(), lower_case.end(), is_same) != text.end();
 }
 
 // Data characters and their place in the current line, values straddling line ends.

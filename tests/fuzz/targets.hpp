@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tests/fuzz/fuzz_input.hpp"
+
+namespace stairway::fuzz {
+
+/// One thing to feed with inputs: `run` aborts when a promise is broken.
+struct Target {
+  const char* name;
+  void (*run)(std::span<const std::uint8_t> input);
+  std::vector<Seed> (*seeds)();  ///< made from the vectors of the protocol's documents
+};
+
+void run_scip(std::span<const std::uint8_t> input);
+std::vector<Seed> scip_seeds();
+
+inline constexpr Target kTargets[] = {
+    {"scip", run_scip, scip_seeds},
+};
+
+}  // namespace stairway::fuzz
