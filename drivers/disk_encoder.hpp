@@ -9,6 +9,7 @@
 
 #include "drivers/encoder/encoder_session.hpp"
 #include "drivers/ports/edge_port.hpp"
+#include "drivers/ports/port_opener.hpp"
 
 namespace stairway::drivers {
 
@@ -16,13 +17,11 @@ namespace stairway::drivers {
 /// without end), and moves edges to the session. It has no thread; one thread calls `poll` in a loop.
 class DiskEncoder {
  public:
-  /// Opens a port, or gives null while the lines are not to be had. Must not throw.
-  using PortOpener = std::function<std::unique_ptr<EdgePort>()>;
   /// Time on the line of the port's stamps.
   using Clock = std::function<HostStamp()>;
 
   /// @pre  options.problem() is empty.
-  DiskEncoder(PortOpener open_port, Clock now, const EncoderOptions& options);
+  DiskEncoder(PortOpener<EdgePort> opener, Clock now, const EncoderOptions& options);
 
   /// Waits at most `timeout` for something to happen and gives what happened, in order. Samples come in the order of
   /// their stamps, one per edge of A and B; at rest the last angle is repeated every 50 ms, so that a disk at rest can
@@ -33,7 +32,7 @@ class DiskEncoder {
   bool is_port_open() const { return port_ != nullptr; }
 
  private:
-  PortOpener open_port_;
+  PortOpener<EdgePort> opener_;
   Clock now_;
   EncoderSession session_;
   std::unique_ptr<EdgePort> port_;

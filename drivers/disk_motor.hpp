@@ -9,6 +9,7 @@
 
 #include "drivers/canopen/motor_session.hpp"
 #include "drivers/ports/can_port.hpp"
+#include "drivers/ports/port_opener.hpp"
 
 namespace stairway::drivers {
 
@@ -16,13 +17,11 @@ namespace stairway::drivers {
 /// without end), and moves frames between it and the session. It has no thread; one thread calls everything.
 class DiskMotor {
  public:
-  /// Opens a port, or gives null while the interface is absent. Must not throw.
-  using PortOpener = std::function<std::unique_ptr<CanPort>()>;
   /// Time on the line of the port's arrival stamps.
   using Clock = std::function<HostStamp()>;
 
   /// @pre  options.problem() is empty.
-  DiskMotor(PortOpener open_port, Clock now, const MotorOptions& options);
+  DiskMotor(PortOpener<CanPort> opener, Clock now, const MotorOptions& options);
   /// stop()
   ~DiskMotor();
   DiskMotor(const DiskMotor&) = delete;
@@ -43,7 +42,7 @@ class DiskMotor {
   bool is_port_open() const { return port_ != nullptr; }
 
  private:
-  PortOpener open_port_;
+  PortOpener<CanPort> opener_;
   Clock now_;
   MotorSession session_;
   std::unique_ptr<CanPort> port_;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <string>
-#include <thread>
 #include <utility>
 #include <variant>
 
@@ -26,8 +25,8 @@ const char* describe(PortError error) { return error == PortError::Closed ? "por
 
 }  // namespace
 
-Utm30lx::Utm30lx(PortOpener open_port, Clock now, const ScipOptions& options)
-    : open_port_(std::move(open_port)), now_(std::move(now)), session_(options) {}
+Utm30lx::Utm30lx(PortOpener<BytePort> opener, Clock now, const ScipOptions& options)
+    : opener_(std::move(opener)), now_(std::move(now)), session_(options) {}
 
 Utm30lx::~Utm30lx() {
   if (port_) static_cast<void>(port_->write(ScipSession::stop_command()));
@@ -53,11 +52,12 @@ std::vector<ScipEvent> Utm30lx::poll(nanoseconds timeout) {
 
 std::vector<ScipEvent> Utm30lx::open(nanoseconds timeout) {
   if (const nanoseconds wait = time_until(session_.deadline(), now_(), timeout); wait > nanoseconds::zero()) {
-    std::this_thread::sleep_for(wait);
+    if (opener_.wait(wait)) session_.retry_now(now_());
     return {};
   }
-  port_ = open_port_();
-  if (!port_) return session_.on_disconnect(now_(), "device not found or not accessible");
+  auto port = opener_.open();
+  if (!port) return session_.on_disconnect(now_(), port.error());
+  port_ = std::move(*port);
   std::vector<ScipEvent> events = session_.on_time(now_());
   send_output(events);
   return events;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/ports/byte_port.hpp"
+#include "drivers/ports/port_opener.hpp"
 #include "drivers/scip/scip_session.hpp"
 
 namespace stairway::drivers {
@@ -16,13 +17,11 @@ namespace stairway::drivers {
 /// moves bytes between it and the session. It has no thread; one thread calls `poll` in a loop.
 class Utm30lx {
  public:
-  /// Opens a port, or gives null while the device is absent. Must not throw.
-  using PortOpener = std::function<std::unique_ptr<BytePort>()>;
   /// Time on the line of the port's arrival stamps.
   using Clock = std::function<HostStamp()>;
 
   /// @pre  options.problem() is empty.
-  Utm30lx(PortOpener open_port, Clock now, const ScipOptions& options);
+  Utm30lx(PortOpener<BytePort> opener, Clock now, const ScipOptions& options);
   /// Stops the stream and the laser if the port still takes commands.
   ~Utm30lx();
   Utm30lx(const Utm30lx&) = delete;
@@ -38,7 +37,7 @@ class Utm30lx {
   std::vector<ScipEvent> open(std::chrono::nanoseconds timeout);
   void send_output(std::vector<ScipEvent>& events);
 
-  PortOpener open_port_;
+  PortOpener<BytePort> opener_;
   Clock now_;
   ScipSession session_;
   std::unique_ptr<BytePort> port_;

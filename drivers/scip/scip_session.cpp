@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "drivers/backoff.hpp"
 #include "drivers/scip/scan_conversion.hpp"
 
 namespace stairway::drivers {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr int kProvenStream = 40;    // scans after which earlier failures are forgiven
 constexpr int kRepeatsToReport = 2;  // after the first: one repetition also comes from rounding
-constexpr int kMaxDoublings = 16;
 constexpr std::size_t kMaxQuote = 32;
 
 HostStamp to_ns(double seconds) { return std::llround(seconds * 1e9); }
@@ -61,6 +61,10 @@ std::vector<ScipEvent> ScipSession::on_disconnect(HostStamp now_ns, std::string_
   ++failures_;
   back_off(now_ns);
   return take_events();
+}
+
+void ScipSession::retry_now(HostStamp now_ns) {
+  if (step_ == Step::Backoff) deadline_ns_ = std::min(deadline_ns_, now_ns);
 }
 
 std::string ScipSession::take_output() { return std::exchange(output_, {}); }
@@ -305,8 +309,7 @@ void ScipSession::back_off(HostStamp now_ns) {
   is_reattaching_ = false;
   if (failures_ >= options_.restarts_before_reopen) events_.emplace_back(ScipReopenEvent{});
   enter(Step::Backoff, now_ns);
-  const int doublings = std::clamp(failures_ - 1, 0, kMaxDoublings);
-  deadline_ns_ = now_ns + to_ns(std::min(options_.max_backoff_s, std::ldexp(options_.min_backoff_s, doublings)));
+  deadline_ns_ = now_ns + backoff_ns(failures_, options_.min_backoff_s, options_.max_backoff_s);
 }
 
 void ScipSession::report(ScipTrouble trouble, std::string detail) {

@@ -38,6 +38,8 @@ class ScipSession {
   std::vector<ScipEvent> on_time(HostStamp now_ns);
   /// The port failed, or could not be opened: waits, then opens from the start.
   std::vector<ScipEvent> on_disconnect(HostStamp now_ns, std::string_view detail);
+  /// Cuts the pause short that precedes the next attempt to open, e.g. because the sensor was plugged in.
+  void retry_now(HostStamp now_ns);
 
   /// Commands to send; empty when none.
   std::string take_output();

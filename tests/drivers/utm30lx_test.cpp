@@ -22,6 +22,7 @@ struct World {
   ScriptedSensor sensor;
   HostStamp now_ns = 1'000'000'000;
   bool is_plugged = true;
+  HostStamp plugged_in_ns = 0;  // plugs itself in then, and says so
   int openings = 0;
   bool has_stopped = false;
 };
@@ -50,17 +51,26 @@ class WorldPort : public BytePort {
   World& world_;
 };
 
-// While there is no port nothing else moves the time, so asking for it does.
-Utm30lx make_device(World& world) {
+Utm30lx make_device(World& world, double min_backoff_s = 0.01, double max_backoff_s = 0.02) {
   ScipOptions options;
-  options.min_backoff_s = 0.01;
-  options.max_backoff_s = 0.02;
+  options.min_backoff_s = min_backoff_s;
+  options.max_backoff_s = max_backoff_s;
   return Utm30lx(
-      [&world]() -> std::unique_ptr<BytePort> {
-        ++world.openings;
-        return world.is_plugged ? std::make_unique<WorldPort>(world) : nullptr;
-      },
-      [&world] { return world.now_ns += 2'000'000; }, options);
+      {[&world]() -> tl::expected<std::unique_ptr<BytePort>, std::string> {
+         ++world.openings;
+         if (!world.is_plugged) return tl::unexpected(std::string("not plugged in"));
+         return std::make_unique<WorldPort>(world);
+       },
+       [&world](std::chrono::nanoseconds timeout) {
+         const HostStamp end_ns = world.now_ns + timeout.count();
+         if (world.plugged_in_ns > world.now_ns && world.plugged_in_ns < end_ns) {
+           world.now_ns = world.plugged_in_ns;
+           return world.is_plugged = true;
+         }
+         world.now_ns = end_ns;
+         return false;
+       }},
+      [&world] { return world.now_ns; }, options);
 }
 
 std::size_t poll_until_scans(Utm30lx& device, std::size_t wanted, int max_polls) {
@@ -96,6 +106,28 @@ TEST(Utm30lx, waits_for_a_device_that_is_not_there_and_survives_its_loss) {
     EXPECT_EQ(device.session().state(), ScipState::Backoff);
   }
   EXPECT_GE(device.session().counters().count(ScipTrouble::Disconnected), 4U);
+}
+
+TEST(Utm30lx, tells_why_there_is_no_port) {
+  World world;
+  world.is_plugged = false;
+  Utm30lx device = make_device(world);
+  const auto events = device.poll(milliseconds(1));
+  const auto* trouble = std::get_if<ScipTroubleEvent>(&events.at(0));
+  ASSERT_NE(trouble, nullptr);
+  EXPECT_EQ(trouble->trouble, ScipTrouble::Disconnected);
+  EXPECT_EQ(trouble->detail, "not plugged in");
+}
+
+TEST(Utm30lx, opens_a_device_as_soon_as_it_is_plugged_in) {
+  World world;
+  world.is_plugged = false;
+  Utm30lx device = make_device(world, 10.0, 10.0);
+  device.poll(milliseconds(20));
+  world.plugged_in_ns = world.now_ns + 3'123'000'000;
+  while (!device.is_port_open() && world.openings < 3) device.poll(milliseconds(100));
+  EXPECT_TRUE(device.is_port_open());
+  EXPECT_EQ(world.now_ns, world.plugged_in_ns);
 }
 
 TEST(Utm30lx, closes_and_opens_the_port_of_a_sensor_that_went_silent) {

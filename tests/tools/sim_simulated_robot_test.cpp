@@ -31,7 +31,7 @@ SimulatedRobotOptions fast_disk() {
 }
 
 drivers::Utm30lx open_driver(SimulatedRobot& robot) {
-  return {[&] { return robot.open_scanner(); }, [&] { return robot.now_ns(); }, {}};
+  return {{[&] { return robot.open_scanner(); }}, [&] { return robot.now_ns(); }, {}};
 }
 
 TEST(SimRobot, the_driver_opens_it_and_gets_every_scan_at_its_time) {

@@ -39,7 +39,9 @@ SimulatedSource::SimulatedSource(const config::Settings& settings, std::int64_t 
       disk_speed_rad_s_(2.0 * std::numbers::pi / settings.simulate.disk_period_s),
       robot_(sim::build_scene(sim::load_scene(settings.simulate.scene)), robot_options(settings)),
       encoder_(robot_.open_encoder()) {
-  scanner_.emplace([this] { return robot_.open_scanner(); }, [this] { return robot_.now_ns(); }, settings.lidar);
+  scanner_.emplace(
+      drivers::PortOpener<drivers::BytePort>{[this] { return robot_.open_scanner(); }},
+      [this] { return robot_.now_ns(); }, settings.lidar);
 }
 
 std::vector<SourceEvent> SimulatedSource::read(std::chrono::milliseconds timeout) {
