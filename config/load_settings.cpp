@@ -20,6 +20,7 @@ namespace stairway::config {
 namespace {
 
 constexpr std::string_view kDefaultProfile = "lidar";
+constexpr const char* kUsualFile = "/etc/stairwayd/stairwayd.toml";
 constexpr std::size_t kMaxFileBytes = 1 << 20;
 
 /// One source of settings: its contents and how to name a place in it.
@@ -209,6 +210,18 @@ std::pair<std::string, std::string> chosen_profile(const std::vector<Layer>& lay
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> usual_files(const std::filesystem::path& file) {
+  const std::filesystem::path first = file.empty() ? kUsualFile : file;
+  std::error_code ignored;
+  if (file.empty() && !std::filesystem::exists(first, ignored)) return {};
+  std::vector<std::filesystem::path> files{first};
+  for (const auto& entry : std::filesystem::directory_iterator(first.parent_path() / "conf.d", ignored)) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  }
+  std::sort(files.begin() + 1, files.end());
+  return files;
+}
 
 tl::expected<LoadedSettings, SettingsError> load_settings(const SettingsSources& sources) {
   LoadedSettings loaded;

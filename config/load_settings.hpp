@@ -26,6 +26,10 @@ struct SettingsSources {
   std::vector<std::string> assignments;  ///< "section.key=value" as TOML; quotes around texts may be left out
 };
 
+/// The files that the daemon reads, in this order: `file`, or without one /etc/stairwayd/stairwayd.toml if it exists;
+/// then *.toml in the folder conf.d beside it, by name.
+std::vector<std::filesystem::path> usual_files(const std::filesystem::path& file);
+
 struct LoadedSettings {
   Settings settings;
   /// By key, where its value was set, e.g. "/etc/stairwayd/stairwayd.toml:12"; keys at their default are not in it.

@@ -37,7 +37,6 @@ constexpr int kFailure = 1;
 constexpr int kWrongUsage = 2;
 constexpr int kBadSettings = 78;  // EX_CONFIG; the unit does not start the daemon again after it
 constexpr auto kReportInterval = 1s;
-constexpr const char* kUsualFile = "/etc/stairwayd/stairwayd.toml";
 
 constexpr const char* kFooter =
     "Settings: the defaults, then the file, then *.toml in the folder conf.d beside it in their order, then --set.\n"
@@ -54,16 +53,7 @@ struct CommandLine {
 };
 
 config::SettingsSources settings_sources(const CommandLine& line) {
-  config::SettingsSources sources{{}, line.assignments};
-  const std::filesystem::path file = line.config.empty() ? kUsualFile : line.config;
-  std::error_code ignored;
-  if (line.config.empty() && !std::filesystem::exists(file, ignored)) return sources;
-  sources.files.push_back(file);
-  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path() / "conf.d", ignored)) {
-    if (entry.path().extension() == ".toml") sources.files.push_back(entry.path());
-  }
-  std::sort(sources.files.begin() + 1, sources.files.end());
-  return sources;
+  return {config::usual_files(line.config), line.assignments};
 }
 
 int fail(int exit_code, const std::string& text) {

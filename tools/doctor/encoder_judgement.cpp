@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "tools/doctor/encoder.hpp"
+
+namespace stairway::doctor {
+namespace {
+
+Check judge_chip(const EncoderFacts& facts, const WantedLines& wanted) {
+  constexpr const char* kName = "encoder";
+  if (facts.chips.empty() && !facts.node.exists) {
+    return failure(kName, "no GPIO chip on this machine (/dev/gpiochip*)",
+                   "load the driver of the board's GPIO, or take the angle from the drive");
+  }
+  if (!facts.node.exists) {
+    return failure(kName, fmt::format("no chip {}, but {}", wanted.chip, fmt::join(facts.chips, ", ")),
+                   "change encoder.chip; gpiodetect lists their labels");
+  }
+  return ok(kName, facts.node.path + (facts.label.empty() ? "" : ", " + facts.label));
+}
+
+Check judge_access(const EncoderFacts& facts, const Caller& caller) {
+  constexpr const char* kName = "encoder-access";
+  const NodeFacts& node = facts.node;
+  if (node.group != "gpio" || !node.is_open_to_group) {
+    return failure(kName, fmt::format("{} belongs to group {}, not gpio", node.path, node.group),
+                   "install 60-stairway.rules, then udevadm control --reload && udevadm trigger");
+  }
+  if (!node.is_usable && !caller.is_root) {
+    return warning(kName,
+                   fmt::format("{} is open to group gpio, which you are {}", node.path,
+                               caller.is_in("gpio") ? "in, but may not use it" : "not in"),
+                   "stairwayd may use it; for yourself: usermod -aG gpio USER, then log in again");
+  }
+  return ok(kName, node.path + " is open to group gpio");
+}
+
+const LineFacts* find(const EncoderFacts& facts, int offset) {
+  const auto found = std::find_if(facts.lines.begin(), facts.lines.end(),
+                                  [&](const LineFacts& line) { return line.offset == offset; });
+  return found == facts.lines.end() ? nullptr : &*found;
+}
+
+Check judge_lines(const EncoderFacts& facts, const WantedLines& wanted, bool has_daemon) {
+  constexpr const char* kName = "encoder-lines";
+  if (!facts.refusal.empty()) {
+    return failure(kName, fmt::format("{} does not answer: {}", facts.node.path, facts.refusal),
+                   "run this as root to tell missing rights from a missing driver");
+  }
+  std::string text;
+  for (const auto& [signal, offset] :
+       {std::pair{"A", wanted.a}, std::pair{"B", wanted.b}, std::pair{"index", wanted.index}}) {
+    if (offset < 0) continue;
+    const LineFacts* line = find(facts, offset);
+    if (line == nullptr) {
+      return failure(
+          kName,
+          fmt::format("{} has {} lines, so no line {} for {}", facts.node.path, facts.line_count, offset, signal),
+          "change encoder.line_a, line_b or line_index; gpioinfo lists them");
+    }
+    if (line->is_used && !(has_daemon && line->consumer == "stairwayd")) {
+      return failure(kName,
+                     fmt::format("line {} ({}) is taken by {}", offset, signal,
+                                 line->consumer.empty() ? "the kernel" : line->consumer),
+                     "end that program, or remove that driver or overlay from the board's set-up");
+    }
+    text += fmt::format("{}{} on {}", text.empty() ? "" : ", ", signal, offset);
+    if (!line->name.empty()) text += fmt::format(" ({})", line->name);
+  }
+  return ok(kName, text);
+}
+
+}  // namespace
+
+std::vector<Check> judge(const EncoderFacts& facts, const WantedLines& wanted, const Caller& caller, bool has_daemon) {
+  std::vector<Check> checks{judge_chip(facts, wanted)};
+  if (!facts.node.exists) return checks;
+  checks.push_back(judge_access(facts, caller));
+  checks.push_back(judge_lines(facts, wanted, has_daemon));
+  return checks;
+}
+
+Check judge(const CountFacts& facts) {
+  constexpr const char* kName = "encoder-counts";
+  const std::string text =
+      fmt::format("A {} ({} edges), B {} ({} edges), index {} edges in {:.1f} s", facts.levels.a ? "high" : "low",
+                  facts.a_edges, facts.levels.b ? "high" : "low", facts.b_edges, facts.index_edges, facts.duration_s);
+  if (facts.is_broken) return failure(kName, text + ", then the lines failed", "look at dmesg");
+  if (facts.lost_edges > 0) {
+    return warning(kName, fmt::format("{}, {} lost", text, facts.lost_edges),
+                   "turn slower, or use the kernel's larger queue (see the rates in docs/hardware.md)");
+  }
+  const std::uint64_t fewer = std::min(facts.a_edges, facts.b_edges), more = std::max(facts.a_edges, facts.b_edges);
+  // Half a turn of noise on one line is as good as none on the other.
+  if (more >= 8 && fewer * 4 < more) {
+    return failure(kName, text, "one of A and B does not follow: check its wire, its level and the line's number");
+  }
+  if (more == 0) return ok(kName, text + "; turn the disk by hand to see them count");
+  return ok(kName, text);
+}
+
+}  // namespace stairway::doctor

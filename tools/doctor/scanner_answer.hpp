@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/utm30lx.hpp"
+#include "tools/doctor/check.hpp"
+
+namespace stairway::doctor {
+
+/// What a scanner said when it was opened and let run for a moment.
+struct ScannerAnswer {
+  std::optional<drivers::ScipDeviceInfo> device;  ///< empty when VV, PP and II were not all answered
+  std::uint64_t scans = 0;
+  double scan_duration_s = 0.0;       ///< from the first to the last of them
+  std::vector<std::string> troubles;  ///< told meanwhile, at most ten
+};
+
+/// Opens the scanner as the daemon does, its laser included, until 40 scans came or `patience` is over, and stops it.
+ScannerAnswer ask_scanner(drivers::Utm30lx::PortOpener open_port, drivers::Utm30lx::Clock now,
+                          const drivers::ScipOptions& options, std::chrono::nanoseconds patience);
+
+/// scanner-answer, scanner-firmware, scanner-stream.
+std::vector<Check> judge(const ScannerAnswer& answer, const std::string& wanted_serial);
+
+/// Whether a text of VV such as "1.16.02(19/Jan./2010)" or "P.1.05(17/Apr./2009)" names a version before
+/// 1.18.01, the oldest one without known faults of the clock. False for texts of another form.
+bool is_old_firmware(const std::string& text);
+
+}  // namespace stairway::doctor
