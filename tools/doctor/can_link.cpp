@@ -9,11 +9,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
-#include <system_error>
-#include <utility>
 
 namespace stairway::doctor {
 namespace {
@@ -81,8 +79,6 @@ struct Request {
   std::array<char, IFNAMSIZ> name{};
 };
 
-std::string last_error() { return std::generic_category().message(errno); }
-
 }  // namespace
 
 const char* to_string(CanBusState state) {
@@ -120,8 +116,8 @@ std::optional<LinkInfo> parse_link_message(Bytes message) {
   return link;
 }
 
-tl::expected<std::optional<LinkInfo>, std::string> read_link(const std::string& name) {
-  if (name.empty() || name.size() >= IFNAMSIZ) return std::optional<LinkInfo>{};
+std::optional<LinkInfo> read_link(const std::string& name) {
+  if (name.empty() || name.size() >= IFNAMSIZ) return std::nullopt;
   const Socket socket;
   Request request;
   request.header.nlmsg_len = sizeof request;
@@ -132,12 +128,11 @@ tl::expected<std::optional<LinkInfo>, std::string> read_link(const std::string& 
   request.name_header.rta_type = IFLA_IFNAME;
   std::memcpy(request.name.data(), name.data(), name.size());
   alignas(nlmsghdr) std::array<std::byte, 16384> reply;
-  if (socket.fd < 0 || ::send(socket.fd, &request, sizeof request, 0) < 0) return tl::unexpected(last_error());
+  if (socket.fd < 0 || ::send(socket.fd, &request, sizeof request, 0) < 0) return std::nullopt;
   const ssize_t got = ::recv(socket.fd, reply.data(), reply.size(), 0);
-  if (got < 0) return tl::unexpected(last_error());
+  if (got < 0) return std::nullopt;
   auto link = parse_link_message(Bytes(reply).first(static_cast<std::size_t>(got)));
-  if (link && link->name != name) link.reset();
-  return link;
+  return link && link->name == name ? link : std::nullopt;
 }
 
 }  // namespace stairway::doctor

@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tl/expected.hpp>
 
 namespace stairway::doctor {
 
@@ -29,7 +28,7 @@ struct LinkInfo {
 /// Reads one RTM_NEWLINK message. Empty when it is another one, or cut short; unknown attributes are left out.
 std::optional<LinkInfo> parse_link_message(std::span<const std::byte> message);
 
-/// Asks the kernel. Empty when there is no interface of that name; an error (one line) when the kernel does not answer.
-tl::expected<std::optional<LinkInfo>, std::string> read_link(const std::string& name);
+/// Asks the kernel. Empty when there is no interface of that name, or no answer.
+std::optional<LinkInfo> read_link(const std::string& name);
 
 }  // namespace stairway::doctor

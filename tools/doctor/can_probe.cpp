@@ -30,7 +30,7 @@ std::vector<std::string> can_interfaces() {
   auto* const all = ::if_nameindex();
   for (auto* one = all; one != nullptr && one->if_index != 0; ++one) {
     const auto link = read_link(one->if_name);
-    if (link && *link && (*link)->is_can) found.emplace_back(one->if_name);
+    if (link && link->is_can) found.emplace_back(one->if_name);
   }
   if (all != nullptr) ::if_freenameindex(all);
   return found;
@@ -74,8 +74,7 @@ bool is_complete(const DriveFacts& facts) {
 }  // namespace
 
 CanFacts look_at_can(const std::string& interface) {
-  CanFacts facts{.interface = interface, .no_kernel_support = kernel_refusal()};
-  if (auto link = read_link(interface)) facts.link = std::move(*link);
+  CanFacts facts{.interface = interface, .no_kernel_support = kernel_refusal(), .link = read_link(interface)};
   for (const std::string& name : can_interfaces()) {
     if (name != interface) facts.others.push_back(name);
   }

@@ -58,7 +58,7 @@ std::string to_text(std::span<const Check> checks) {
   std::string text;
   for (const Check& check : checks) {
     text += fmt::format("{:<8} {:<{}}  {}", to_string(check.state), check.name, widest, check.text);
-    text += check.remedy.empty() ? "\n" : fmt::format("; {}\n", check.remedy);
+    text += check.remedy.empty() ? "\n" : fmt::format(" -> {}\n", check.remedy);
   }
   return text;
 }

@@ -16,7 +16,7 @@ namespace stairway::doctor {
 
 /// Where the settings say that the encoder is.
 struct WantedLines {
-  std::string chip;  ///< "gpiochip0", "/dev/gpiochip0", or a chip's label
+  std::string chip;  ///< "gpiochip0", "/dev/gpiochip0", or a chip's label; empty where there is no encoder
   int a = 0;
   int b = 0;
   int index = -1;  ///< negative where there is none

@@ -77,6 +77,7 @@ Check judge_lines(const EncoderFacts& facts, const WantedLines& wanted, bool has
 }  // namespace
 
 std::vector<Check> judge(const EncoderFacts& facts, const WantedLines& wanted, const Caller& caller, bool has_daemon) {
+  if (wanted.chip.empty()) return {skipped("encoder", "the settings name no GPIO chip")};
   std::vector<Check> checks{judge_chip(facts, wanted)};
   if (!facts.node.exists) return checks;
   checks.push_back(judge_access(facts, caller));

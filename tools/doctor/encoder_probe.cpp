@@ -64,6 +64,7 @@ EncoderFacts look_at_encoder(const Machine& machine, const WantedLines& wanted) 
   for (const std::string& name : machine.names("/dev")) {
     if (name.starts_with("gpiochip")) facts.chips.push_back(name);
   }
+  if (wanted.chip.empty()) return facts;
   facts.node = look_at_node(machine, chip_path(machine, facts.chips, wanted.chip));
   if (!facts.node.exists) return facts;
   const File file(machine.path(facts.node.path).string());

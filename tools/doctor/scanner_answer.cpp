@@ -90,10 +90,10 @@ Check judge_stream(const ScannerAnswer& answer) {
 
 }  // namespace
 
-ScannerAnswer ask_scanner(Utm30lx::PortOpener open_port, Utm30lx::Clock now, const ScipOptions& options,
+ScannerAnswer ask_scanner(PortOpener<BytePort> opener, Utm30lx::Clock now, const ScipOptions& options,
                           std::chrono::nanoseconds patience) {
   Listener listener;
-  Utm30lx scanner(std::move(open_port), now, options);
+  Utm30lx scanner(std::move(opener), now, options);
   for (const HostStamp end_ns = now() + patience.count(); now() < end_ns && !listener.is_done();) {
     for (const ScipEvent& event : scanner.poll(std::chrono::milliseconds(20))) listener.take(event);
   }

@@ -22,7 +22,7 @@ struct ScannerAnswer {
 };
 
 /// Opens the scanner as the daemon does, its laser included, until 40 scans came or `patience` is over, and stops it.
-ScannerAnswer ask_scanner(drivers::Utm30lx::PortOpener open_port, drivers::Utm30lx::Clock now,
+ScannerAnswer ask_scanner(drivers::PortOpener<drivers::BytePort> opener, drivers::Utm30lx::Clock now,
                           const drivers::ScipOptions& options, std::chrono::nanoseconds patience);
 
 /// scanner-answer, scanner-firmware, scanner-stream.

@@ -11,6 +11,7 @@ std::span<const Verb> verbs() {
       {"simulate", "write the cloud that the robot would assemble in a scene", declare_simulate},
       {"evaluate", "repeat the experiments of the paper on simulated stairs", declare_evaluate},
       {"info", "describe clouds", declare_info},
+      {"doctor", "look for what is wrong with the devices and the set-up, and say what to do", declare_doctor},
       {"config", "show, check or compare settings", declare_config},
   };
   return kVerbs;

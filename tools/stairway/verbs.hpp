@@ -28,6 +28,7 @@ struct Verb {
 
 Action declare_config(CLI::App& command);
 Action declare_detect(CLI::App& command);
+Action declare_doctor(CLI::App& command);
 Action declare_evaluate(CLI::App& command);
 Action declare_info(CLI::App& command);
 Action declare_monitor(CLI::App& command);

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <utility>
+
+#include "tools/doctor/examination.hpp"
+#include "tools/stairway/arguments.hpp"
+#include "tools/stairway/verbs.hpp"
+
+namespace stairway::tools {
+namespace {
+
+struct Arguments {
+  SettingsArguments settings;
+  Format format = Format::Text;
+  bool is_probing = false;
+};
+
+/// Without --config, those of the daemon.
+SettingsArguments with_usual_files(SettingsArguments arguments) {
+  if (arguments.files.empty()) {
+    for (const auto& file : config::usual_files({})) arguments.files.push_back(file.string());
+  }
+  return arguments;
+}
+
+doctor::Check judge_settings(const std::vector<std::string>& files,
+                             const tl::expected<config::LoadedSettings, config::SettingsError>& loaded) {
+  constexpr const char* kName = "settings";
+  if (!loaded) {
+    return doctor::failure(kName, loaded.error().text, "mend it; what follows is looked at with the defaults");
+  }
+  if (files.empty()) return doctor::ok(kName, "in order: no file, the defaults");
+  return doctor::ok(kName, fmt::format("in order: {}", fmt::join(files, ", ")));
+}
+
+doctor::Robot robot_of(const config::Settings& settings) { return {.lidar = settings.lidar, .lcm = settings.lcm}; }
+
+int run(const Arguments& arguments) {
+  const SettingsArguments sources = with_usual_files(arguments.settings);
+  const auto loaded = load_settings(sources);
+  const config::Settings settings = loaded ? loaded->settings : config::Settings{};
+  std::vector<doctor::Check> checks{judge_settings(sources.files, loaded)};
+  StatusLine status;
+  status.show("looking at everything, this takes some seconds ...");
+  auto more = doctor::examine(doctor::Machine(), robot_of(settings), {}, {}, arguments.is_probing);
+  std::move(more.begin(), more.end(), std::back_inserter(checks));
+  status.clear();
+  if (arguments.format == Format::Json) {
+    print_json_line(doctor::to_json(checks));
+  } else {
+    print(doctor::to_text(checks));
+  }
+  return doctor::exit_code(checks);
+}
+
+}  // namespace
+
+Action declare_doctor(CLI::App& command) {
+  const auto arguments = std::make_shared<Arguments>();
+  command.add_flag("--probe", arguments->is_probing,
+                   "ask the scanner even while stairwayd is running, and send the drive a question instead of only "
+                   "listening");
+  add_settings_options(command, arguments->settings);
+  add_format_option(command, arguments->format);
+  command.footer(
+      "Looks at settings, installation, LCM, scanner, CAN and encoder, and says what to do. Without --config the\n"
+      "settings are those of stairwayd. While stairwayd is running its devices are left to it.\n"
+      "Examples:\n"
+      "  stairway doctor\n"
+      "  stairway doctor --config robot.toml --probe\n"
+      "  stairway doctor --format json | jq '.checks[] | select(.state != \"ok\")'\n"
+      "Exit codes: 0 all is well; 1 there are warnings; 2 there are failures, or wrong usage.");
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace stairway::tools
