@@ -9,6 +9,7 @@
 
 #include "detector/stairway_detector.hpp"
 #include "drivers/scip/scip_options.hpp"
+#include "drivers/usb/usb_options.hpp"
 #include "ipc/channels.hpp"
 #include "scan_assembly/frames.hpp"
 #include "scan_assembly/sweep_assembler.hpp"
@@ -55,6 +56,7 @@ struct Settings {
   LogOptions log;
   ipc::BusOptions lcm;
   drivers::ScipOptions lidar;
+  drivers::UsbOptions usb;  ///< keys in the section of the lidar
   scan::MountOptions mount;
   scan::SweepOptions sweep;
   detect::DetectorOptions detector;

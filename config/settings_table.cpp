@@ -11,8 +11,10 @@
 namespace stairway::config {
 namespace {
 
-void add_lidar_settings(std::vector<Entry>& table, drivers::ScipOptions& lidar) {
+void add_lidar_settings(std::vector<Entry>& table, drivers::ScipOptions& lidar, drivers::UsbOptions& usb) {
   Section(table, "lidar")
+      .text("usb_serial", lidar.serial, "serial number of the wanted unit, as on its label; empty is any")
+      .text("usb_port", usb.port, "where it is plugged in, e.g. 1-2.3; empty is anywhere")
       .real("min_angle", lidar.min_angle_rad, kDegree, {-180, 180}, "right end of the scan window, 0 is the front beam")
       .real("max_angle", lidar.max_angle_rad, kDegree, {-180, 180}, "left end of the scan window")
       .whole("cluster", lidar.cluster, 1, 99, "neighbouring beams that share their smallest range")
@@ -147,7 +149,7 @@ std::vector<Entry> settings_table(Settings& settings) {
   Section(table, "lcm")
       .text("url", settings.lcm.url, "LCM provider; ttl=0 keeps messages on this host")
       .text("channel_prefix", settings.lcm.channel_prefix, "in front of every channel name");
-  add_lidar_settings(table, settings.lidar);
+  add_lidar_settings(table, settings.lidar, settings.usb);
   add_mount_settings(table, settings.mount);
   add_sweep_settings(table, settings.sweep);
   add_detector_settings(table, settings.detector);

@@ -39,8 +39,10 @@ std::vector<ScipEvent> Utm30lx::poll(nanoseconds timeout) {
     port_.reset();
     return session_.on_disconnect(now_(), describe(chunk.error()));
   }
-  std::vector<ScipEvent> events =
-      chunk->bytes.empty() ? session_.on_time(chunk->arrival_ns) : session_.on_bytes(chunk->bytes, chunk->arrival_ns);
+  std::vector<ScipEvent> events;
+  if (chunk->lost_bytes > 0) append(events, session_.on_lost_bytes(chunk->lost_bytes));
+  append(events, chunk->bytes.empty() ? session_.on_time(chunk->arrival_ns)
+                                      : session_.on_bytes(chunk->bytes, chunk->arrival_ns));
   const auto is_reopen = [](const ScipEvent& event) { return std::holds_alternative<ScipReopenEvent>(event); };
   if (std::ranges::any_of(events, is_reopen)) {
     port_.reset();

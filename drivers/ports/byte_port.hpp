@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -16,8 +17,9 @@ enum class PortError { Closed, Io };
 
 /// Bytes that arrived together.
 struct ByteChunk {
-  HostStamp arrival_ns = 0;  ///< when the first of them arrived [ns]
-  std::string bytes;         ///< empty when the wait ended without any; `arrival_ns` is then the time of the end
+  HostStamp arrival_ns = 0;    ///< when the first of them arrived [ns]
+  std::string bytes;           ///< empty when the wait ended without any; `arrival_ns` is then the time of the end
+  std::size_t lost_bytes = 0;  ///< dropped before these, because nobody read in time
 };
 
 /// The place where the scanner's bytes enter and leave the process: USB, a simulated sensor, or a recording.

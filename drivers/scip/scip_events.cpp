@@ -40,6 +40,12 @@ const char* to_string(ScipTrouble trouble) {
       return "sensor clock set back";
     case ScipTrouble::Disconnected:
       return "disconnected";
+    case ScipTrouble::LostBytes:
+      return "bytes lost";
+    case ScipTrouble::WrongUnit:
+      return "another unit";
+    case ScipTrouble::OldFirmware:
+      return "old firmware";
   }
   return "unknown";
 }

@@ -33,8 +33,11 @@ enum class ScipTrouble : std::uint8_t {
   RepeatedStamp,  ///< three scans carried the same time stamp
   ClockReset,     ///< the sensor's counter was set back
   Disconnected,   ///< the port failed or cannot be opened
+  LostBytes,      ///< bytes were dropped on the way, because nobody read in time
+  WrongUnit,      ///< a sensor with another serial number than the wanted one
+  OldFirmware,    ///< a firmware with known faults
 };
-inline constexpr std::size_t kScipTroubles = 11;
+inline constexpr std::size_t kScipTroubles = 14;
 const char* to_string(ScipTrouble trouble);
 
 /// Monotonic counts since the session began.

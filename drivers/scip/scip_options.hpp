@@ -20,6 +20,7 @@ enum class StampReference {
 /// How a UTM-30LX is opened, watched and timed. Ranges and intensities: the session asks for ranges only (MD), because
 /// full-field intensities overload this sensor.
 struct ScipOptions {
+  std::string serial;                         ///< of the unit that is wanted, as VV and the label tell it; empty is any
   double min_angle_rad = -2.356194490192345;  ///< right end of the scan window, clipped to what PP allows [rad],
                                               ///< in [-pi, pi)
   double max_angle_rad = 2.356194490192345;   ///< left end, likewise, > min_angle

@@ -8,6 +8,7 @@
 
 #include "drivers/backoff.hpp"
 #include "drivers/scip/scan_conversion.hpp"
+#include "drivers/scip/unit_checks.hpp"
 
 namespace stairway::drivers {
 namespace {
@@ -60,6 +61,11 @@ std::vector<ScipEvent> ScipSession::on_disconnect(HostStamp now_ns, std::string_
   output_.clear();
   ++failures_;
   back_off(now_ns);
+  return take_events();
+}
+
+std::vector<ScipEvent> ScipSession::on_lost_bytes(std::size_t bytes) {
+  report(ScipTrouble::LostBytes, std::to_string(bytes) + " bytes were not read in time; is the machine overloaded?");
   return take_events();
 }
 
@@ -200,6 +206,7 @@ void ScipSession::on_setup_reply(const ScipReply& reply, HostStamp now_ns) {
   if (step_ == Step::AskParameters) is_taken = take(parse_parameters(reply.data), device_.parameters);
   if (step_ == Step::AskState) is_taken = take(parse_state(reply.data), device_.state);
   if (!is_taken) return send_again(now_ns);
+  if (step_ == Step::AskVersion && !is_wanted_unit(now_ns)) return;
 
   if (step_ == Step::ResetAgain) {
     unwrapper_.clear();
@@ -211,6 +218,21 @@ void ScipSession::on_setup_reply(const ScipReply& reply, HostStamp now_ns) {
   report(ScipTrouble::SensorFault, "the sensor says \"" + device_.state.status + "\"; switch its power off and on");
   ++failures_;
   back_off(now_ns);
+}
+
+bool ScipSession::is_wanted_unit(HostStamp now_ns) {
+  const VersionInfo& unit = device_.version;
+  if (!options_.serial.empty() && !is_same_serial(unit.serial, options_.serial)) {
+    report(ScipTrouble::WrongUnit, "its serial number is " + unit.serial.substr(0, kMaxQuote) + ", wanted is " +
+                                       options_.serial.substr(0, kMaxQuote));
+    ++failures_;
+    back_off(now_ns, true);
+    return false;
+  }
+  if (const std::string warning = firmware_warning(unit.firmware); !warning.empty()) {
+    report(ScipTrouble::OldFirmware, warning);
+  }
+  return true;
 }
 
 void ScipSession::on_laser_reply(std::string_view status, HostStamp now_ns) {
@@ -305,9 +327,9 @@ void ScipSession::restart_stream(HostStamp now_ns) {
   enter(Step::Quit, now_ns);
 }
 
-void ScipSession::back_off(HostStamp now_ns) {
+void ScipSession::back_off(HostStamp now_ns, bool wants_other_port) {
   is_reattaching_ = false;
-  if (failures_ >= options_.restarts_before_reopen) events_.emplace_back(ScipReopenEvent{});
+  if (wants_other_port || failures_ >= options_.restarts_before_reopen) events_.emplace_back(ScipReopenEvent{});
   enter(Step::Backoff, now_ns);
   deadline_ns_ = now_ns + backoff_ns(failures_, options_.min_backoff_s, options_.max_backoff_s);
 }

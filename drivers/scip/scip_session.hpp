@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -38,6 +39,8 @@ class ScipSession {
   std::vector<ScipEvent> on_time(HostStamp now_ns);
   /// The port failed, or could not be opened: waits, then opens from the start.
   std::vector<ScipEvent> on_disconnect(HostStamp now_ns, std::string_view detail);
+  /// So many bytes were dropped on their way before the next ones; a scan with a hole is refused by its sums.
+  std::vector<ScipEvent> on_lost_bytes(std::size_t bytes);
   /// Cuts the pause short that precedes the next attempt to open, e.g. because the sensor was plugged in.
   void retry_now(HostStamp now_ns);
 
@@ -81,6 +84,7 @@ class ScipSession {
   void on_block(const ScipBlock& block, HostStamp now_ns);
   void on_reply(const ScipReply& reply, HostStamp now_ns);
   void on_setup_reply(const ScipReply& reply, HostStamp now_ns);
+  bool is_wanted_unit(HostStamp now_ns);
   void on_laser_reply(std::string_view status, HostStamp now_ns);
   void on_stream_block(const ScipBlock& block, HostStamp now_ns);
   void on_stream_status(std::string_view status, HostStamp now_ns);
@@ -89,7 +93,7 @@ class ScipSession {
   void prepare_stream();
   void begin_stream(HostStamp now_ns);
   void restart_stream(HostStamp now_ns);
-  void back_off(HostStamp now_ns);
+  void back_off(HostStamp now_ns, bool wants_other_port = false);
   void report(ScipTrouble trouble, std::string detail);
   void report_refusal(std::string_view status);
   std::string command_for(Step step) const;

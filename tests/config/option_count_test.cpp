@@ -71,7 +71,8 @@ TEST(Options, every_member_has_a_key) {
       {"detector.localisation", count_members<LocalisationOptions>(), 0},
   };
   for (const Case& entry : cases) EXPECT_EQ(keys_of(entry.section), entry.members - entry.nested) << entry.section;
-  const std::size_t lidar = count_members<drivers::ScipOptions>() + count_members<drivers::ClockOptions>() - 1;
+  const std::size_t lidar = count_members<drivers::ScipOptions>() + count_members<drivers::ClockOptions>() +
+                            count_members<drivers::UsbOptions>() - 1;
   EXPECT_EQ(keys_of("lidar") + keys_of("lidar.timing"), lidar);
 }
 

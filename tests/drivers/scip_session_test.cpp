@@ -57,7 +57,8 @@ TEST(ScipSession, opens_in_the_safe_order_and_streams_the_whole_field) {
   EXPECT_EQ(bench.session.state(), ScipState::Streaming);
   ASSERT_EQ(bench.all<ScipDeviceInfo>().size(), 1U);
   EXPECT_EQ(bench.all<ScipDeviceInfo>().front().version.serial, "00903971");
-  EXPECT_TRUE(bench.all<ScipTroubleEvent>().empty());
+  ASSERT_EQ(bench.all<ScipTroubleEvent>().size(), 1U);
+  EXPECT_EQ(bench.count(ScipTrouble::OldFirmware), 1U);
 
   const auto scans = bench.all<LaserScan>();
   ASSERT_GT(scans.size(), 60U);
@@ -121,7 +122,34 @@ TEST(ScipSession, accepts_a_laser_that_is_on_already) {
   };
   bench.run(2.0);
   EXPECT_EQ(bench.session.state(), ScipState::Streaming);
-  EXPECT_TRUE(bench.all<ScipTroubleEvent>().empty());
+  EXPECT_EQ(bench.count(ScipTrouble::Refused), 0U);
+}
+
+TEST(ScipSession, leaves_another_unit_than_the_wanted_one_alone) {
+  ScipOptions options;
+  options.serial = "H0903972";
+  Bench bench(options);
+  bench.run(1.0);
+  EXPECT_EQ(bench.count(ScipTrouble::WrongUnit), 1U);
+  EXPECT_EQ(bench.all<ScipReopenEvent>().size(), 1U);
+  bench.run(30.0);
+  EXPECT_EQ(bench.sent("BM"), 0);
+  EXPECT_EQ(bench.session.counters().scans, 0U);
+}
+
+TEST(ScipSession, takes_the_wanted_unit_however_its_serial_is_written) {
+  ScipOptions options;
+  options.serial = "H0903971";
+  Bench bench(options);
+  bench.run(3.0);
+  EXPECT_EQ(bench.session.state(), ScipState::Streaming);
+}
+
+TEST(ScipSession, tells_of_bytes_that_were_lost_on_the_way) {
+  Bench bench;
+  bench.run(3.0);
+  bench.take(bench.session.on_lost_bytes(1024));
+  EXPECT_EQ(bench.count(ScipTrouble::LostBytes), 1U);
 }
 
 TEST(ScipSession, does_without_commands_that_a_simple_sensor_does_not_know) {
