@@ -1,36 +1,15 @@
 // SPDX-FileCopyrightText: The stairwayd authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <string>
+
+#include "tests/config/command.hpp"
 
 namespace stairway::config {
 namespace {
-
-struct CommandResult {
-  int exit_code = -1;
-  std::string output;  ///< of both streams
-};
-
-CommandResult run(const std::string& command) {
-  CommandResult result;
-  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return result;
-  std::array<char, 4096> buffer;
-  for (std::size_t got = 0; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    result.output.append(buffer.data(), got);
-  }
-  result.exit_code = WEXITSTATUS(::pclose(pipe));
-  return result;
-}
-
-bool has_program(const std::string& name) { return run("command -v " + name).exit_code == 0; }
 
 TEST(SystemdUnit, exposes_little) {
   if (!has_program("systemd-analyze")) GTEST_SKIP() << "no systemd-analyze here";
