@@ -19,6 +19,8 @@ void add_lidar_settings(std::vector<Entry>& table, drivers::ScipOptions& lidar, 
       .real("max_angle", lidar.max_angle_rad, kDegree, {-180, 180}, "left end of the scan window")
       .whole("cluster", lidar.cluster, 1, 99, "neighbouring beams that share their smallest range")
       .whole("skip_scan", lidar.skip_scan, 0, 9, "mirror turns left out between two scans")
+      .on_off("intensities", lidar.intensities, "strengths of the echoes too; not at full field and rate")
+      .on_off("force_intensities", lidar.force_intensities, "even where they may crash the scanner")
       .choice("stamp_reference", lidar.stamp_reference, {"rear", "step0"},
               "where the beam points at the stamped instant")
       .real("min_latency", lidar.clock.minimum_latency_ns, kMillisecondOfNanoseconds, {0, 1000},

@@ -23,7 +23,9 @@ bool has_layout(std::span<const std::uint8_t> bytes, const scan_t*) {
   MessageWalker walker(bytes);
   walker.skip(kFingerprint + 9 * kWord + 1);
   const std::size_t beams = walker.count();
-  return walker.skip(4 * beams).skip(beams).ends_here();
+  walker.skip(4 * beams).skip(beams);
+  const std::size_t intensities = walker.count();
+  return walker.skip(4 * intensities).ends_here();
 }
 
 bool has_layout(std::span<const std::uint8_t> bytes, const disk_t*) {
@@ -213,6 +215,10 @@ Bytes encode(const ScanMessage& message) {
   wire.statuses.assign(scan.ranges_m.size(), static_cast<std::uint8_t>(drivers::BeamStatus::Invalid));
   const std::size_t known = std::min(scan.statuses.size(), scan.ranges_m.size());
   for (std::size_t i = 0; i < known; ++i) wire.statuses[i] = static_cast<std::uint8_t>(scan.statuses[i]);
+  if (scan.intensities.size() == scan.ranges_m.size()) {
+    wire.num_intensities = wire.num_beams;
+    wire.intensities.assign(scan.intensities.begin(), scan.intensities.end());
+  }
   return to_bytes(wire);
 }
 
@@ -234,6 +240,14 @@ tl::expected<ScanMessage, MessageFault> decode<ScanMessage>(std::span<const std:
     const auto status = enumerator(value, drivers::BeamStatus::Invalid);
     if (!status) return tl::unexpected(MessageFault::ImpossibleValue);
     message.scan.statuses.push_back(*status);
+  }
+  for (const std::int32_t value : wire->intensities) {
+    if (value < 0) return tl::unexpected(MessageFault::ImpossibleValue);
+    message.scan.intensities.push_back(static_cast<std::uint32_t>(value));
+  }
+  const bool has_intensities = !message.scan.intensities.empty();
+  if (has_intensities && message.scan.intensities.size() != message.scan.ranges_m.size()) {
+    return tl::unexpected(MessageFault::ImpossibleValue);
   }
   message.disk_angle_start_rad = wire->disk_angle_start_rad;
   message.disk_angle_end_rad = wire->disk_angle_end_rad;

@@ -41,6 +41,7 @@ LaserScan to_laser_scan(const RawScan& raw, const ScanRequest& request, const Se
   scan.angle_increment_rad = cluster * step_rad;
   scan.ranges_m.reserve(raw.ranges_mm.size());
   scan.statuses.reserve(raw.ranges_mm.size());
+  scan.intensities = raw.intensities;
   for (const std::uint32_t range_mm : raw.ranges_mm) {
     const BeamStatus status = classify_range(range_mm, sensor);
     scan.statuses.push_back(status);

@@ -16,6 +16,13 @@ struct Range {
   double value, low, high;
 };
 
+bool overloads_sensor(const ScipOptions& options) {
+  constexpr double kFieldOfView_rad = 1.5 * kPi;
+  constexpr double kBearable_rad = 95.5 / 180.0 * kPi;  // half a degree for the rounding of steps
+  const double window_rad = std::min(options.max_angle_rad - options.min_angle_rad, kFieldOfView_rad);
+  return options.skip_scan == 0 && window_rad > kBearable_rad * options.cluster;
+}
+
 std::string text(double value) {
   std::string out = std::to_string(value);
   out.erase(out.find_last_not_of('0') + 1);
@@ -48,6 +55,10 @@ std::string ScipOptions::problem() const {
     if (range.value >= range.low && range.value <= range.high) continue;
     return std::string(range.name) + " must lie between " + text(range.low) + " and " + text(range.high);
   }
+  if (intensities && !force_intensities && overloads_sensor(*this)) {
+    return "intensities overload the sensor at this window: use cluster 3, skip_scan 1, at most 95 degrees, or "
+           "force_intensities";
+  }
   return clock.problem();
 }
 
@@ -64,6 +75,7 @@ ScanRequest make_request(const ScipOptions& options, const SensorParameters& sen
     request.first_step = sensor.first_step;
     request.last_step = sensor.last_step;
   }
+  if (options.intensities) request.symbol = "ME";
   request.cluster = options.cluster;
   request.skip_scan = options.skip_scan;
   return request;

@@ -17,8 +17,9 @@ enum class StampReference {
   Step0,  ///< the beam points along step 0
 };
 
-/// How a UTM-30LX is opened, watched and timed. Ranges and intensities: the session asks for ranges only (MD), because
-/// full-field intensities overload this sensor.
+/// How a UTM-30LX is opened, watched and timed. Intensities double the sensor's work: at full rate and more than 95
+/// degrees for each step of a cluster they come late or broken, and some firmware then needs its power switched off and
+/// on. `problem` refuses them there unless they are forced.
 struct ScipOptions {
   std::string serial;                         ///< of the unit that is wanted, as VV and the label tell it; empty is any
   double min_angle_rad = -2.356194490192345;  ///< right end of the scan window, clipped to what PP allows [rad],
@@ -26,6 +27,8 @@ struct ScipOptions {
   double max_angle_rad = 2.356194490192345;   ///< left end, likewise, > min_angle
   int cluster = 1;                            ///< neighbouring steps that share their smallest range, 1..99
   int skip_scan = 0;                          ///< mirror turns left out between two scans, 0..9
+  bool intensities = false;                   ///< asks for the strengths of the echoes too (ME instead of MD)
+  bool force_intensities = false;             ///< even where they may crash the sensor
   StampReference stamp_reference = StampReference::Rear;
   ClockOptions clock;
 

@@ -87,6 +87,7 @@ void ScipSession::enter(Step step, HostStamp now_ns) {
   if (is_first || state() != old_state) events_.emplace_back(ScipStateEvent{state()});
   is_pausing_ = false;
   attempts_ = 0;
+  if (step == Step::Drain) is_intensity_refused_ = false;
   if (step == Step::Drain || step == Step::DrainReset) {
     framer_.clear();
     drain_end_ns_ = now_ns + to_ns(options_.max_drain_s);
@@ -182,7 +183,10 @@ void ScipSession::on_reply(const ScipReply& reply, HostStamp now_ns) {
       return on_laser_reply(reply.status, now_ns);
     case Step::StartStream:
       if (reply.status == "00" || reply.status == "99") return begin_stream(now_ns);
-      break;
+      if (!request_.has_intensity() || !is_unknown_command(reply.status)) break;
+      report_refusal(reply.status);
+      is_intensity_refused_ = true;
+      return enter(Step::StartStream, now_ns);
     default:
       if (reply.status == "00") return on_setup_reply(reply, now_ns);
       if (!is_unknown_command(reply.status)) break;
@@ -251,6 +255,7 @@ void ScipSession::on_laser_reply(std::string_view status, HostStamp now_ns) {
 
 void ScipSession::prepare_stream() {
   request_ = make_request(options_, device_.parameters);
+  if (is_intensity_refused_) request_.symbol = "MD";
   const double period_ns = scan_period_ns(device_.parameters, options_.skip_scan);
   if (period_ns != clock_.nominal_period_ns()) clock_.set_nominal_period(period_ns);
 }

@@ -24,7 +24,8 @@ namespace stairway::drivers {
 /// `restarts_before_reopen` failures in a row the session asks for another port and opens from the start, with a
 /// pause that doubles up to `max_backoff_s`, without end. A corrupt scan costs that scan only. Status queries are never
 /// sent into a stream. Commands that a sensor does not know (0D, 0E) are reported and done without; without PP a
-/// UTM-30LX's figures are used.
+/// UTM-30LX's figures are used, and where ME is not known, ranges are asked for without intensities until the next
+/// opening.
 ///
 /// Call `on_bytes` or `on_time` at least once per `deadline()`, with times that do not go back, and send what
 /// `take_output` gives. The first call begins.
@@ -113,10 +114,11 @@ class ScipSession {
   HostStamp drain_end_ns_ = 0;
   std::string command_;
   int attempts_ = 0;
-  bool is_pausing_ = false;      // before BM is sent again
-  bool is_reattaching_ = false;  // the sensor was set up before: only its stream is started again
-  int failures_ = 0;             // in a row
-  int good_scans_ = 0;           // of this stream
+  bool is_pausing_ = false;            // before BM is sent again
+  bool is_reattaching_ = false;        // the sensor was set up before: only its stream is started again
+  bool is_intensity_refused_ = false;  // by this sensor, until it is opened again
+  int failures_ = 0;                   // in a row
+  int good_scans_ = 0;                 // of this stream
   std::int64_t last_stamp_ms_ = -1;
   int repeated_stamps_ = 0;
 

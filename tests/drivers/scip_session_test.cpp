@@ -145,6 +145,40 @@ TEST(ScipSession, takes_the_wanted_unit_however_its_serial_is_written) {
   EXPECT_EQ(bench.session.state(), ScipState::Streaming);
 }
 
+TEST(ScipSession, gives_intensities_when_asked) {
+  ScipOptions options;
+  options.intensities = true;
+  options.cluster = 3;
+  ASSERT_EQ(options.problem(), "");
+  Bench bench(options);
+  bench.run(3.0);
+  EXPECT_EQ(bench.sensor.commands.back(), "ME0000108003000");
+  const auto scans = bench.all<LaserScan>();
+  ASSERT_GT(scans.size(), 50U);
+  EXPECT_EQ(scans.back().intensities, std::vector<std::uint32_t>(scans.back().ranges_m.size(), 1500));
+}
+
+TEST(ScipSession, asks_for_ranges_where_intensities_are_not_known_and_again_at_the_next_opening) {
+  ScipOptions options;
+  options.intensities = true;
+  options.skip_scan = 1;
+  Bench bench(options);
+  bool is_known = false;
+  bench.sensor.override_reply = [&](const std::string& command) -> std::optional<std::string> {
+    if (command.starts_with("ME") && !is_known) return encode_reply(command, "0E");
+    return std::nullopt;
+  };
+  bench.run(3.0);
+  EXPECT_EQ(bench.sensor.commands.back(), "MD0000108001100");
+  EXPECT_EQ(bench.count(ScipTrouble::Refused), 1U);
+  EXPECT_TRUE(bench.all<LaserScan>().back().intensities.empty());
+  is_known = true;
+  bench.take(bench.session.on_disconnect(bench.now_ns, "unplugged"));
+  bench.run(4.0);
+  EXPECT_EQ(bench.sensor.commands.back(), "ME0000108001100");
+  EXPECT_EQ(bench.all<LaserScan>().back().intensities.size(), 1081U);
+}
+
 TEST(ScipSession, tells_of_bytes_that_were_lost_on_the_way) {
   Bench bench;
   bench.run(3.0);
@@ -383,6 +417,25 @@ TEST(ScipOptions, name_what_is_wrong) {
   options = {};
   options.clock.max_gap_s = 0.0;
   EXPECT_NE(options.problem().find("max_gap"), std::string::npos);
+}
+
+TEST(ScipOptions, refuse_intensities_that_overload_the_sensor_unless_forced) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  ScipOptions options;
+  options.intensities = true;
+  EXPECT_NE(options.problem().find("intensities"), std::string::npos);
+  const auto accepts = [&](auto change) {
+    ScipOptions changed = options;
+    change(changed);
+    return changed.problem().empty();
+  };
+  EXPECT_TRUE(accepts([](ScipOptions& o) { o.cluster = 3; }));
+  EXPECT_FALSE(accepts([](ScipOptions& o) { o.cluster = 2; }));
+  EXPECT_TRUE(accepts([](ScipOptions& o) { o.skip_scan = 1; }));
+  EXPECT_TRUE(accepts([](ScipOptions& o) { o.force_intensities = true; }));
+  EXPECT_TRUE(accepts([](ScipOptions& o) { o.min_angle_rad = -47 * kDegree, o.max_angle_rad = 48 * kDegree; }));
+  EXPECT_FALSE(accepts([](ScipOptions& o) { o.min_angle_rad = -48 * kDegree, o.max_angle_rad = 48 * kDegree; }));
+  EXPECT_TRUE(accepts([](ScipOptions& o) { o.max_angle_rad = 55 * kDegree, o.cluster = 2; }));
 }
 
 }  // namespace

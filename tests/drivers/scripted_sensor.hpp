@@ -96,6 +96,7 @@ class ScriptedSensor {
     RawScan scan;
     scan.stamp_ms = static_cast<std::uint32_t>((next_turn_ns_ - clock_origin_ns_) / 1'000'000) & 0xFFFFFF;
     scan.ranges_mm.assign(static_cast<std::size_t>(request_.max_values()), range_mm);
+    if (request_.has_intensity()) scan.intensities.assign(scan.ranges_mm.size(), 1500);
     return encode_reply(to_command(request_), "99", encode_scan_data(scan, request_));
   }
 

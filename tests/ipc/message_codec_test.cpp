@@ -81,6 +81,26 @@ TEST(MessageCodec, scan_comes_back_bit_for_bit) {
   }
 }
 
+TEST(MessageCodec, scan_carries_intensities_for_all_beams_or_none) {
+  ScanMessage sent = test::sample_scan();
+  EXPECT_TRUE(decode<ScanMessage>(encode(sent))->scan.intensities.empty());
+  for (std::size_t i = 0; i < sent.scan.ranges_m.size(); ++i) {
+    sent.scan.intensities.push_back(static_cast<std::uint32_t>(16 * i));
+  }
+  const Bytes bytes = encode(sent);
+  EXPECT_LT(bytes.size(), 16384U);
+  const auto got = decode<ScanMessage>(bytes);
+  ASSERT_TRUE(got);
+  EXPECT_EQ(got->scan.intensities, sent.scan.intensities);
+
+  Bytes negative = bytes;
+  negative[negative.size() - 4] = 0x80;
+  EXPECT_EQ(decode<ScanMessage>(negative).error(), MessageFault::ImpossibleValue);
+
+  sent.scan.intensities.pop_back();
+  EXPECT_TRUE(decode<ScanMessage>(encode(sent))->scan.intensities.empty());
+}
+
 TEST(MessageCodec, scan_fits_one_datagram_of_a_slow_link) { EXPECT_LT(encode(test::sample_scan()).size(), 16384U); }
 
 TEST(MessageCodec, scan_with_lists_of_different_lengths_is_sent_with_invalid_beams) {
@@ -173,7 +193,7 @@ TEST(MessageCodec, damaged_message_gives_an_error_or_one_of_the_same_size) {
 TEST(MessageCodec, values_outside_an_enumeration_are_refused) {
   // Offsets from ipc/types: fingerprint 8, then the fields in order.
   Bytes scan = encode(test::sample_scan());
-  scan.back() = 5;
+  scan[scan.size() - 5] = 5;  // the last status; four bytes behind it say that there are no intensities
   EXPECT_EQ(decode<ScanMessage>(scan).error(), MessageFault::ImpossibleValue);
 
   Bytes disk = encode(kDisk);

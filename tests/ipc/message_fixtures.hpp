@@ -41,7 +41,7 @@ inline StairwaysMessage sample_stairways() {
 inline ScanMessage sample_scan() {
   ScanMessage message;
   message.utime_us = -5;
-  message.scan = {std::uint64_t{1} << 40, 99'000'000'000, 123'456'789'012'345, 17361.1, -2.35, 0.00436, {}, {}};
+  message.scan = {std::uint64_t{1} << 40, 99'000'000'000, 123'456'789'012'345, 17361.1, -2.35, 0.00436, {}, {}, {}};
   for (int i = 0; i < 1081; ++i) {
     const bool is_ok = i % 5 == 0;
     message.scan.statuses.push_back(static_cast<drivers::BeamStatus>(i % 5));
