@@ -116,10 +116,10 @@ struct OpenedPorts {
   int scanners = 0;
   Ports ports() {
     Ports ports;
-    ports.scanner = [this]() -> tl::expected<std::unique_ptr<drivers::BytePort>, std::string> {
+    ports.scanner.emplace([this]() -> tl::expected<std::unique_ptr<drivers::BytePort>, std::string> {
       ++scanners;
       return tl::unexpected<std::string>("no port in a test");
-    };
+    });
     ports.now = [this] { return now_ns += 1'000'000'000; };
     return ports;
   }

@@ -49,7 +49,7 @@ std::vector<Check> examine(const Machine& machine, const Robot& robot, const Por
   if (ports.scanner && !may_open) {
     report.add(skipped("scanner-answer", kBusy));
   } else if (ports.scanner && !has_failure(scanner)) {
-    report.add(judge(ask_scanner(ports.scanner, ports.now, robot.lidar, patience.scanner), robot.scanner.serial));
+    report.add(judge(ask_scanner(*ports.scanner, ports.now, robot.lidar, patience.scanner), robot.scanner.serial));
   }
 
   const auto can = judge(look_at_can(robot.can_interface));

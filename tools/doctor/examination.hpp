@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,9 @@ struct Robot {
   ipc::BusOptions lcm;
 };
 
-/// How its devices are opened; none of them is opened where it says nothing.
+/// How its devices are opened; one that is left out is not opened.
 struct Ports {
-  drivers::PortOpener<drivers::BytePort>::Open scanner;
+  std::optional<drivers::PortOpener<drivers::BytePort>> scanner;
   drivers::PortOpener<drivers::CanPort>::Open can;
   drivers::PortOpener<drivers::EdgePort>::Open encoder;
   std::function<drivers::HostStamp()> now;  ///< on the time line of their stamps

@@ -4,11 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <charconv>
-#include <string_view>
 #include <utility>
 #include <variant>
+
+#include "drivers/scip/unit_checks.hpp"
 
 namespace stairway::doctor {
 namespace {
@@ -37,6 +36,8 @@ class Listener {
     answer.scan_duration_s = static_cast<double>(scan.first_beam_stamp_ns - first_ns_) * 1e-9;
   }
   void take(const ScipTroubleEvent& event) {
+    // The firmware has a check of its own.
+    if (event.trouble == ScipTrouble::OldFirmware) return;
     if (answer.troubles.size() < kMaxTroubles) answer.troubles.push_back(event.detail);
     is_hopeless_ = is_hopeless_ || event.trouble == ScipTrouble::SensorFault;
   }
@@ -60,16 +61,16 @@ Check judge_device(const ScipDeviceInfo& device, const std::string& wanted_seria
   if (device.parameters.model.find("UTM-30LX") == std::string::npos) {
     return warning(kName, text + ", is no UTM-30LX", "the mount, the window and the clock are set for a UTM-30LX");
   }
-  if (!wanted_serial.empty() && version.serial.find(wanted_serial) == std::string::npos) {
-    return failure(kName, text, "lidar.serial asks for " + wanted_serial + ": plug that one in, or change it");
+  if (!wanted_serial.empty() && !is_same_serial(version.serial, wanted_serial)) {
+    return failure(kName, text, "lidar.usb_serial asks for " + wanted_serial + ": plug that one in, or change it");
   }
   return ok(kName, text);
 }
 
 Check judge_firmware(const VersionInfo& version) {
-  if (!is_old_firmware(version.firmware)) return ok("scanner-firmware", version.firmware);
-  return warning("scanner-firmware", version.firmware + " is older than 1.18.01",
-                 "its clock may be wrong (1.16.02 is known for it): watch clock in health, or have it updated");
+  const std::string fault = firmware_warning(version.firmware);
+  if (fault.empty()) return ok("scanner-firmware", version.firmware);
+  return warning("scanner-firmware", fault, "watch the scanner's clock in health, and have it updated by the maker");
 }
 
 Check judge_stream(const ScannerAnswer& answer) {
@@ -102,26 +103,10 @@ ScannerAnswer ask_scanner(PortOpener<BytePort> opener, Utm30lx::Clock now, const
 
 std::vector<Check> judge(const ScannerAnswer& answer, const std::string& wanted_serial) {
   if (!answer.device) {
-    return {failure("scanner-answer", with_troubles("no answer to VV, PP and II", answer),
+    return {failure("scanner-answer", with_troubles("cannot be asked", answer),
                     "switch its power off and on; let no other program use it")};
   }
   return {judge_device(*answer.device, wanted_serial), judge_firmware(answer.device->version), judge_stream(answer)};
-}
-
-bool is_old_firmware(const std::string& text) {
-  constexpr std::array<int, 3> kGood{1, 18, 1};
-  const std::size_t start = text.find_first_of("0123456789");
-  std::string_view rest = start == std::string::npos ? std::string_view() : std::string_view(text).substr(start);
-  std::array<int, 3> version{};
-  for (std::size_t i = 0; i < version.size(); ++i) {
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), version[i]);
-    if (error != std::errc{}) return false;
-    rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
-    if (i == 0 && !rest.starts_with('.')) return false;
-    if (!rest.starts_with('.')) break;
-    rest.remove_prefix(1);
-  }
-  return version < kGood;
 }
 
 }  // namespace stairway::doctor

@@ -28,8 +28,4 @@ ScannerAnswer ask_scanner(drivers::PortOpener<drivers::BytePort> opener, drivers
 /// scanner-answer, scanner-firmware, scanner-stream.
 std::vector<Check> judge(const ScannerAnswer& answer, const std::string& wanted_serial);
 
-/// Whether a text of VV such as "1.16.02(19/Jan./2010)" or "P.1.05(17/Apr./2009)" names a version before
-/// 1.18.01, the oldest one without known faults of the clock. False for texts of another form.
-bool is_old_firmware(const std::string& text);
-
 }  // namespace stairway::doctor

@@ -37,11 +37,11 @@ Check judge_presence(const ScannerFacts& facts, const WantedScanner& wanted, con
   }
   if (chosen == nullptr) {
     return failure("scanner", fmt::format("no scanner at port {}, but at {}", wanted.port, ports(facts.scanners)),
-                   "plug it in there, or change lidar.port");
+                   "plug it in there, or change lidar.usb_port");
   }
   if (facts.scanners.size() > 1 && wanted.port.empty() && wanted.serial.empty()) {
     return warning("scanner", fmt::format("{} scanners, at ports {}", facts.scanners.size(), ports(facts.scanners)),
-                   "say which one by lidar.serial or lidar.port");
+                   "say which one by lidar.usb_serial or lidar.usb_port");
   }
   const std::string product = chosen->product.empty() ? "a Hokuyo scanner" : chosen->product;
   return ok("scanner", fmt::format("{} at port {}", product, chosen->port));

@@ -8,6 +8,8 @@
 #include <memory>
 #include <utility>
 
+#include "drivers/host_clock.hpp"
+#include "drivers/usb/usb_scanner_opener.hpp"
 #include "tools/doctor/examination.hpp"
 #include "tools/stairway/arguments.hpp"
 #include "tools/stairway/verbs.hpp"
@@ -39,7 +41,18 @@ doctor::Check judge_settings(const std::vector<std::string>& files,
   return doctor::ok(kName, fmt::format("in order: {}", fmt::join(files, ", ")));
 }
 
-doctor::Robot robot_of(const config::Settings& settings) { return {.lidar = settings.lidar, .lcm = settings.lcm}; }
+doctor::Robot robot_of(const config::Settings& settings) {
+  return {.scanner = {.serial = settings.lidar.serial, .port = settings.usb.port},
+          .lidar = settings.lidar,
+          .lcm = settings.lcm};
+}
+
+doctor::Ports ports_of(const config::Settings& settings) {
+  doctor::Ports ports;
+  ports.scanner = drivers::usb_scanner_opener(settings.usb, settings.lidar.serial);
+  ports.now = drivers::monotonic_now_ns;
+  return ports;
+}
 
 int run(const Arguments& arguments) {
   const SettingsArguments sources = with_usual_files(arguments.settings);
@@ -48,7 +61,7 @@ int run(const Arguments& arguments) {
   std::vector<doctor::Check> checks{judge_settings(sources.files, loaded)};
   StatusLine status;
   status.show("looking at everything, this takes some seconds ...");
-  auto more = doctor::examine(doctor::Machine(), robot_of(settings), {}, {}, arguments.is_probing);
+  auto more = doctor::examine(doctor::Machine(), robot_of(settings), ports_of(settings), {}, arguments.is_probing);
   std::move(more.begin(), more.end(), std::back_inserter(checks));
   status.clear();
   if (arguments.format == Format::Json) {
