@@ -8,6 +8,7 @@
 #include <string>
 
 #include "detector/stairway_detector.hpp"
+#include "drivers/canopen/motor_options.hpp"
 #include "drivers/scip/scip_options.hpp"
 #include "drivers/usb/usb_options.hpp"
 #include "ipc/channels.hpp"
@@ -57,6 +58,7 @@ struct Settings {
   ipc::BusOptions lcm;
   drivers::ScipOptions lidar;
   drivers::UsbOptions usb;  ///< keys in the section of the lidar
+  drivers::MotorOptions motor;
   scan::MountOptions mount;
   scan::SweepOptions sweep;
   detect::DetectorOptions detector;

@@ -46,6 +46,47 @@ void add_lidar_settings(std::vector<Entry>& table, drivers::ScipOptions& lidar, 
       .real("max_backoff", lidar.max_backoff_s, kSecond, {0.01, 600}, "longest such pause");
 }
 
+void add_motor_settings(std::vector<Entry>& table, drivers::MotorOptions& motor) {
+  Section(table, "motor")
+      .text("interface", motor.interface, "CAN interface, as `ip link` shows it")
+      .whole("node_id", motor.node_id, 1, 127, "the drive's CANopen node number")
+      .whole("host_node_id", motor.host_node_id, 1, 127, "this computer's, for its heartbeat")
+      .real("counts_per_turn", motor.counts_per_turn, kPlain, {1, 1e12},
+            "counts of the drive's position (6064) in one turn of the disk, gears included")
+      .real("velocity_units_per_turn_per_s", motor.velocity_units_per_turn_per_s, kPlain, {1, 1e12},
+            "the drive's speed (60FF, 606C) when the disk does one turn per second")
+      .real("acceleration_units_per_turn_per_s2", motor.acceleration_units_per_turn_per_s2, kPlain, {1e-3, 1e12},
+            "the drive's ramp (6083, 6084, 6085) that gains one turn per second in a second")
+      .on_off("reverse", motor.reverse, "the drive counts up while the disk turns clockwise, seen from above")
+      .real("acceleration", motor.acceleration_rad_s2, kDegreePerSecond2, {0.1, 50000}, "of the disk")
+      .real("deceleration", motor.deceleration_rad_s2, kDegreePerSecond2, {0.1, 50000}, "of the disk")
+      .real("quick_stop_deceleration", motor.quick_stop_deceleration_rad_s2, kDegreePerSecond2, {0.1, 50000},
+            "of the disk, when the drive brakes by itself")
+      .real("standstill_speed", motor.standstill_speed_rad_s, kDegreePerSecond, {0.01, 50},
+            "the disk stands below this")
+      .choice("quick_stop_ramp", motor.quick_stop_ramp, {"none", "deceleration", "quick_stop_deceleration"},
+              "how the drive brakes in a quick stop (605A)")
+      .choice("connection_loss", motor.connection_loss, {"nothing", "fault", "disable_voltage", "quick_stop"},
+              "what the drive does when it misses this computer (6007)")
+      .on_off("reset_on_start", motor.reset_on_start, "reset the drive's communication before it is set up");
+  Section(table, "motor.timing")
+      .real("heartbeat", motor.heartbeat_s, kSecond, {0.02, 10}, "period of the drive's; 2.5 of them without is a loss")
+      .real("host_heartbeat", motor.host_heartbeat_s, kSecond, {0.1, 10},
+            "the drive stops the disk when it misses this computer for so long")
+      .real("sync_rate", motor.sync_rate_hz, kHertz, {10, 500}, "how often the drive tells angle and speed")
+      .real("sdo_timeout", motor.sdo_timeout_s, kSecond, {0.05, 10}, "wait for an object of the drive")
+      .real("state_timeout", motor.state_timeout_s, kSecond, {0.2, 60}, "wait for a step of the drive's states")
+      .real("boot_timeout", motor.boot_timeout_s, kSecond, {0.5, 60}, "wait for the drive after its reset")
+      .real("reach_timeout", motor.reach_timeout_s, kSecond, {0.1, 600},
+            "a wanted speed is reached after its ramp and this")
+      .real("stop_timeout", motor.stop_timeout_s, kSecond, {0.1, 60}, "wait for standstill before switching off")
+      .whole("max_fault_resets", motor.max_fault_resets, 0, 100, "resets of the drive's faults within the window")
+      .real("fault_reset_window", motor.fault_reset_window_s, kSecond, {1, 3600}, "the window")
+      .real("min_backoff", motor.min_backoff_s, kSecond, {0.01, 60},
+            "pause before the drive is set up again, doubled by failures")
+      .real("max_backoff", motor.max_backoff_s, kSecond, {0.01, 600}, "longest such pause");
+}
+
 void add_mount_settings(std::vector<Entry>& table, scan::MountOptions& mount) {
   Section(table, "mount")
       .real("scan_plane_pitch", mount.scan_plane_pitch_rad, kDegree, {-89, 89},
@@ -152,6 +193,7 @@ std::vector<Entry> settings_table(Settings& settings) {
       .text("url", settings.lcm.url, "LCM provider; ttl=0 keeps messages on this host")
       .text("channel_prefix", settings.lcm.channel_prefix, "in front of every channel name");
   add_lidar_settings(table, settings.lidar, settings.usb);
+  add_motor_settings(table, settings.motor);
   add_mount_settings(table, settings.mount);
   add_sweep_settings(table, settings.sweep);
   add_detector_settings(table, settings.detector);

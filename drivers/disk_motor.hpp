@@ -33,8 +33,13 @@ class DiskMotor {
   /// From now on, as soon as the drive is ready; 0 brakes and leaves the drive enabled [rad/s of the disk].
   void set_speed(double speed_rad_s) { session_.set_speed(speed_rad_s); }
 
+  /// Brakes as fast as the drive can and goes on like `stop`, in the polls that follow; `start` begins again.
+  void quick_stop() { session_.quick_stop(); }
+  void start() { session_.start(); }
+
   /// Runs the stop sequence: speed 0, waits for standstill at most `stop_timeout_s`, switches the drive off, leaves it
-  /// pre-operational. Returns early when the bus takes no frames; the drive then stops by its own heartbeat watch.
+  /// pre-operational. What happens meanwhile is only counted. Returns early when the bus takes no frames; the drive
+  /// then stops by its own heartbeat watch.
   /// @return Whether the drive confirmed standstill.
   bool stop();
 
@@ -42,6 +47,9 @@ class DiskMotor {
   bool is_port_open() const { return port_ != nullptr; }
 
  private:
+  std::vector<MotorEvent> open(std::chrono::nanoseconds timeout);
+  void send_output(std::vector<MotorEvent>& events);
+
   PortOpener<CanPort> opener_;
   Clock now_;
   MotorSession session_;

@@ -35,16 +35,18 @@ enum class MotorTrouble : std::uint8_t {
   Unexpected,     ///< an SDO answer without a question (another master?), a PDO that is too short, a bad frame
   Emergency,      ///< EMCY
   Fault,          ///< statusword fault
+  SwitchedOff,    ///< the drive left operation by itself: quick stop input, safe torque off, no voltage
   StateTimeout,   ///< a step of CiA 402 was not followed
   NotReached,     ///< the wanted speed was not reached in time
   Unsuitable,     ///< not a CiA 402 drive, or without profile velocity
 };
-inline constexpr std::size_t kMotorTroubles = 12;
+inline constexpr std::size_t kMotorTroubles = 13;
 const char* to_string(MotorTrouble trouble);
 
 /// Monotonic counts since the session began.
 struct MotorCounters {
   std::uint64_t feedbacks = 0;
+  std::uint64_t dropped_frames = 0;  ///< to be sent, but not taken in time
   std::array<std::uint64_t, kMotorTroubles> troubles{};
 
   std::uint64_t count(MotorTrouble trouble) const { return troubles[static_cast<std::size_t>(trouble)]; }
@@ -55,7 +57,7 @@ struct DriveFeedback {
   HostStamp stamp_ns = 0;    ///< [ns]
   double angle_rad = 0.0;    ///< not wrapped, from the drive's own zero; goes on through counter overflow [rad]
   double speed_rad_s = 0.0;  ///< positive counter-clockwise from above [rad/s]
-  bool is_moving = false;    ///< the drive does not report standstill
+  bool is_moving = false;    ///< faster than `standstill_speed_rad_s`, and the drive does not report standstill
 };
 
 /// What the drive said about itself when it was set up.
@@ -76,9 +78,6 @@ struct MotorTroubleEvent {
   std::string detail;  ///< for a person: what came, what was asked, what to do
 };
 
-/// The port is of no more use: close it and open it again.
-struct MotorReopenEvent {};
-
-using MotorEvent = std::variant<DriveFeedback, DriveInfo, MotorStateEvent, MotorTroubleEvent, MotorReopenEvent>;
+using MotorEvent = std::variant<DriveFeedback, DriveInfo, MotorStateEvent, MotorTroubleEvent>;
 
 }  // namespace stairway::drivers

@@ -74,6 +74,7 @@ TEST(Options, every_member_has_a_key) {
   const std::size_t lidar = count_members<drivers::ScipOptions>() + count_members<drivers::ClockOptions>() +
                             count_members<drivers::UsbOptions>() - 1;
   EXPECT_EQ(keys_of("lidar") + keys_of("lidar.timing"), lidar);
+  EXPECT_EQ(keys_of("motor") + keys_of("motor.timing"), count_members<drivers::MotorOptions>());
 }
 
 }  // namespace

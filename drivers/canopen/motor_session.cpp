@@ -1,0 +1,594 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/canopen/motor_session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "drivers/backoff.hpp"
+#include "drivers/canopen/little_endian.hpp"
+
+namespace stairway::drivers {
+namespace {
+
+constexpr HostStamp kNever = std::numeric_limits<HostStamp>::max();
+constexpr HostStamp kLongAgo = std::numeric_limits<HostStamp>::min() / 2;
+constexpr HostStamp kCommandRepeat_ns = 100'000'000;
+constexpr HostStamp kResetPause_ns = 500'000'000;
+constexpr HostStamp kTellPause_ns = 1'000'000'000;  // between two tellings of one kind that others cause at will
+constexpr HostStamp kLeastSilence_ns = 250'000'000;
+constexpr double kHeartbeatsLost = 2.5;
+constexpr HostStamp kSyncsLost = 5;
+constexpr double kReachedShare = 0.05;
+constexpr int kProvenFeedbacks = 500;  // after which earlier failures are forgiven
+constexpr std::size_t kMaxOutput = 32;
+
+HostStamp to_ns(double seconds) { return std::llround(seconds * 1e9); }
+
+std::string tenths(double value) {
+  std::string out = std::to_string(std::round(value * 10.0) / 10.0);
+  return out.substr(0, out.find('.') + 2);
+}
+
+}  // namespace
+
+MotorSession::MotorSession(const MotorOptions& options)
+    : options_(options),
+      units_(options),
+      node_(static_cast<std::uint8_t>(options.node_id)),
+      sdo_(node_, to_ns(options.sdo_timeout_s)),
+      setup_(options),
+      stopping_(options),
+      assembler_(options) {
+  told_ns_.fill(kLongAgo);
+}
+
+std::vector<MotorEvent> MotorSession::on_arrivals(std::span<const CanArrival> arrivals, HostStamp now_ns) {
+  if (step_ == Step::Start && request_ == Request::None) {
+    host_heartbeat_due_ns_ = now_ns;
+    begin_search(now_ns);
+  }
+  for (const CanArrival& arrival : arrivals) {
+    now_ns_ = std::clamp(arrival.arrival_ns, std::min(now_ns_, now_ns), now_ns);
+    if (const auto* frame = std::get_if<CanFrame>(&arrival.what)) on_frame(*frame, now_ns_);
+    if (const auto* condition = std::get_if<CanCondition>(&arrival.what)) on_condition(*condition, now_ns_);
+    advance_transfers(now_ns_);
+  }
+  now_ns_ = now_ns;
+  obey_request(now_ns);
+  sdo_.on_time(now_ns);
+  advance_transfers(now_ns);
+  watch_drive(now_ns);
+  watch_step(now_ns);
+  send_cyclic(now_ns);
+  for (const CanFrame& frame : sdo_.take_output()) send(frame);
+  return take_events();
+}
+
+std::vector<MotorEvent> MotorSession::on_disconnect(HostStamp now_ns, std::string_view detail) {
+  report(MotorTrouble::Disconnected, std::string(detail), now_ns);
+  const bool is_stop_wanted = request_ == Request::Stop || request_ == Request::QuickStop;
+  if (is_stop_wanted && step_ != Step::Stopped) begin_stop(false, now_ns);
+  request_ = Request::None;
+  if (step_ == Step::Stop) {
+    end_stop();
+  } else if (step_ != Step::Stopped) {
+    back_off(now_ns);
+  }
+  is_muted_ = false;
+  sdo_.cancel(now_ns);
+  static_cast<void>(sdo_.take_output());
+  output_.clear();
+  return take_events();
+}
+
+std::vector<MotorEvent> MotorSession::on_unsent(HostStamp now_ns) {
+  output_.clear();
+  if (!is_unsent_told_) {
+    report(
+        MotorTrouble::Bus,
+        "frames cannot be sent on " + options_.interface + ": is the bus wired, terminated and at the right bit rate?",
+        now_ns);
+  }
+  is_unsent_told_ = true;
+  if (step_ == Step::Stop) end_stop();
+  return take_events();
+}
+
+void MotorSession::retry_now(HostStamp now_ns) {
+  if (step_ == Step::Backoff) step_deadline_ns_ = std::min(step_deadline_ns_, now_ns);
+}
+
+std::vector<CanFrame> MotorSession::take_output() {
+  if (is_muted_) output_.clear();
+  return std::exchange(output_, {});
+}
+
+HostStamp MotorSession::deadline() const {
+  if (request_ != Request::None || step_ == Step::Start) return now_ns_;
+  if (step_ == Step::Stopped) return kNever;
+  HostStamp due_ns = std::min({step_deadline_ns_, host_heartbeat_due_ns_, sdo_.deadline()});
+  if (step_ == Step::Search) due_ns = std::min(due_ns, std::max(probe_ns_, now_ns_ + 1));
+  if (step_ == Step::Setup) due_ns = std::min(due_ns, setup_.deadline());
+  if (step_ == Step::Stop) due_ns = std::min(due_ns, stopping_.deadline());
+  if (step_ == Step::Run) due_ns = std::min(due_ns, reach_deadline_ns_);
+  if (is_watched()) due_ns = std::min(due_ns, heartbeat_ns_ + to_ns(kHeartbeatsLost * options_.heartbeat_s));
+  if (is_operational()) due_ns = std::min({due_ns, sync_due_ns_, is_command_new_ ? now_ns_ : command_due_ns_});
+  return due_ns;
+}
+
+void MotorSession::set_speed(double speed_rad_s) { wanted_rad_s_ = std::isnan(speed_rad_s) ? 0.0 : speed_rad_s; }
+
+void MotorSession::stop() { request_ = Request::Stop; }
+
+void MotorSession::quick_stop() { request_ = Request::QuickStop; }
+
+void MotorSession::start() { request_ = Request::Start; }
+
+MotorState MotorSession::state() const {
+  switch (step_) {
+    case Step::Start:
+    case Step::Search:
+      return MotorState::Searching;
+    case Step::Setup:
+    case Step::StartNode:
+      return MotorState::Configuring;
+    case Step::Enable:
+      return MotorState::Enabling;
+    case Step::Run:
+      return MotorState::Running;
+    case Step::ReadFault:
+    case Step::WaitReset:
+    case Step::ResetFault:
+      return MotorState::Faulted;
+    case Step::Backoff:
+      return MotorState::Backoff;
+    case Step::Stop:
+      return MotorState::Stopping;
+    case Step::Stopped:
+      return MotorState::Stopped;
+  }
+  return MotorState::Searching;
+}
+
+void MotorSession::enter(Step step, HostStamp deadline_ns) {
+  const MotorState old_state = state();
+  const bool is_first = step_ == Step::Start;
+  step_ = step;
+  step_deadline_ns_ = deadline_ns;
+  if (is_first || state() != old_state) events_.emplace_back(MotorStateEvent{state()});
+}
+
+void MotorSession::begin_search(HostStamp now_ns) {
+  const HostStamp timeout_ns = to_ns(options_.boot_timeout_s);
+  sdo_.cancel(now_ns);
+  assembler_.pause();
+  probe_ns_ = now_ns;
+  if (options_.reset_on_start) {
+    send(encode_nmt(NmtCommand::ResetCommunication, node_));
+    probe_ns_ += timeout_ns / 2;
+  }
+  enter(Step::Search, now_ns + timeout_ns);
+}
+
+void MotorSession::begin_setup(HostStamp now_ns) {
+  sdo_.cancel(now_ns);
+  emergency_.reset();
+  send(encode_nmt(NmtCommand::EnterPreOperational, node_));
+  setup_.begin(sdo_, now_ns);
+  enter(Step::Setup, kNever);
+}
+
+void MotorSession::begin_stop(bool is_quick, HostStamp now_ns) {
+  // At once; the objects follow.
+  if (is_operational()) {
+    command(is_quick ? controlword::kQuickStop : command_.control, 0);
+    send_command(now_ns);
+  }
+  sdo_.cancel(now_ns);
+  stopping_.begin(sdo_, is_quick, now_ns);
+  enter(Step::Stop, kNever);
+  if (is_muted_) end_stop();
+}
+
+void MotorSession::end_stop() {
+  sdo_.cancel(now_ns_);
+  if (!stopping_.is_standing()) {
+    report(MotorTrouble::StateTimeout,
+           "the drive did not say that the disk stands; without this host's heartbeat it brakes by itself", now_ns_);
+  }
+  send(encode_nmt(NmtCommand::EnterPreOperational, node_));
+  enter(Step::Stopped, kNever);
+}
+
+void MotorSession::back_off(HostStamp now_ns) {
+  if (is_operational()) {
+    command(controlword::kDisableVoltage, 0);
+    send_command(now_ns);
+    send(encode_nmt(NmtCommand::EnterPreOperational, node_));
+  }
+  sdo_.cancel(now_ns);
+  ++failures_;
+  enter(Step::Backoff, now_ns + backoff_ns(failures_, options_.min_backoff_s, options_.max_backoff_s));
+}
+
+void MotorSession::fail(MotorTrouble trouble, std::string detail, HostStamp now_ns) {
+  report(trouble, std::move(detail), now_ns);
+  back_off(now_ns);
+}
+
+void MotorSession::on_frame(const CanFrame& frame, HostStamp at_ns) {
+  if (step_ == Step::Stopped) return;
+  is_muted_ = false;
+  is_unsent_told_ = false;
+  if (frame.id == cob::kHeartbeat + node_) {
+    on_heartbeat(frame, at_ns);
+  } else if (frame.id == cob::kTpdo1 + node_) {
+    on_status_pdo(frame, at_ns);
+  } else if (frame.id == cob::kTpdo2 + node_) {
+    on_position_pdo(frame, at_ns);
+  } else if (frame.id == cob::kEmergency + node_) {
+    on_emergency(frame, at_ns);
+  } else if (frame.id == cob::kSdoAnswer + node_) {
+    if (sdo_.on_frame(frame, at_ns)) return;
+    report(MotorTrouble::Unexpected, to_string(frame) + ": an answer too late, or to another CAN master", at_ns);
+  } else if (frame.id == cob::kNmt || frame.id == cob::kSdoRequest + node_) {
+    report(MotorTrouble::Unexpected, to_string(frame) + ": another CAN master commands this drive", at_ns);
+  } else if (frame.id == cob::kHeartbeat + options_.host_node_id) {
+    report(MotorTrouble::Unexpected,
+           to_string(frame) + ": another station uses this host's node number, see motor.host_node_id", at_ns);
+  }
+}
+
+void MotorSession::on_condition(CanCondition condition, HostStamp at_ns) {
+  if (step_ == Step::Stopped || condition == CanCondition::Active) return;
+  const bool is_back = condition == CanCondition::LinkUp || condition == CanCondition::Restarted;
+  if (!is_back) report(MotorTrouble::Bus, options_.interface + ": " + to_string(condition), at_ns);
+  if (condition == CanCondition::LinkDown) is_muted_ = true;
+  if (condition == CanCondition::LinkUp) is_muted_ = false;
+  const bool is_lost = condition == CanCondition::LinkDown || condition == CanCondition::BusOff;
+  if (is_lost && step_ == Step::Stop) return end_stop();
+  if ((is_lost || is_back) && !is_at_rest() && step_ != Step::Stop) begin_search(at_ns);
+}
+
+void MotorSession::on_heartbeat(const CanFrame& frame, HostStamp at_ns) {
+  const auto nmt_state = decode_heartbeat(frame);
+  if (!nmt_state) return report(MotorTrouble::Unexpected, to_string(frame) + ": not a heartbeat", at_ns);
+  heartbeat_ns_ = at_ns;
+  if (*nmt_state == NmtState::BootUp) return on_boot_up(at_ns);
+  if (step_ == Step::Search) {
+    if (at_ns >= probe_ns_) begin_setup(at_ns);
+  } else if (step_ == Step::StartNode) {
+    if (*nmt_state == NmtState::Operational) {
+      acted_on_.reset();
+      command(controlword::kDisableVoltage, 0);
+      is_command_new_ = false;
+      command_due_ns_ = kNever;  // nothing is commanded before the first statusword
+      sync_due_ns_ = at_ns;
+      status_ns_ = at_ns;
+      enter(Step::Enable, at_ns + to_ns(options_.state_timeout_s));
+    }
+  } else if (is_operational() && *nmt_state != NmtState::Operational) {
+    fail(MotorTrouble::Unexpected,
+         std::string("the drive is ") + to_string(*nmt_state) + " though it was started: did it miss this host?",
+         at_ns);
+  }
+}
+
+void MotorSession::on_boot_up(HostStamp at_ns) {
+  if (step_ == Step::Backoff || step_ == Step::Stop) return;
+  if (step_ != Step::Search) {
+    report(MotorTrouble::Rebooted, "the drive has restarted and is set up again", at_ns);
+    assembler_.forget_position();
+  }
+  begin_setup(at_ns);
+}
+
+void MotorSession::on_emergency(const CanFrame& frame, HostStamp at_ns) {
+  const auto emergency = decode_emergency(frame);
+  if (!emergency) return report(MotorTrouble::Unexpected, to_string(frame) + ": not an EMCY", at_ns);
+  emergency_ = emergency->code == 0 ? std::nullopt : emergency;
+  if (emergency_) report(MotorTrouble::Emergency, "EMCY " + describe(*emergency), at_ns);
+}
+
+void MotorSession::on_status_pdo(const CanFrame& frame, HostStamp at_ns) {
+  if (!is_operational()) return;
+  if (frame.length < kStatusPdoBytes) {
+    return report(MotorTrouble::Unexpected, to_string(frame) + ": shorter than it was mapped", at_ns);
+  }
+  status_ = static_cast<std::uint16_t>(load_little_endian(frame.data, 2));
+  status_ns_ = at_ns;
+  drive_state_ = decode_statusword(status_);
+  assembler_.on_status(status_, static_cast<std::int32_t>(load_little_endian(std::span(frame.data).subspan(2), 4)),
+                       at_ns);
+  give_feedback();
+  if (is_fault(drive_state_) && (step_ == Step::Enable || step_ == Step::Run)) return begin_fault(at_ns);
+  if (step_ == Step::Enable) return step_enable(at_ns);
+  if (step_ == Step::Run) return step_run(at_ns);
+  step_fault(at_ns);
+}
+
+void MotorSession::on_position_pdo(const CanFrame& frame, HostStamp at_ns) {
+  if (!is_operational()) return;
+  if (frame.length < kPositionPdoBytes) {
+    return report(MotorTrouble::Unexpected, to_string(frame) + ": shorter than it was mapped", at_ns);
+  }
+  assembler_.on_position(static_cast<std::int32_t>(load_little_endian(frame.data, 4)), at_ns);
+  give_feedback();
+}
+
+void MotorSession::give_feedback() {
+  const auto feedback = assembler_.take();
+  if (!feedback) return;
+  ++counters_.feedbacks;
+  speed_rad_s_ = feedback->speed_rad_s;
+  if (step_ == Step::Run) {
+    if (++good_feedbacks_ >= kProvenFeedbacks) failures_ = 0;
+    watch_target(*feedback);
+  }
+  events_.emplace_back(*feedback);
+}
+
+void MotorSession::watch_target(const DriveFeedback& feedback) {
+  if (feedback.stamp_ns <= target_ns_) return;
+  const double tolerance_rad_s = kReachedShare * std::abs(wanted_rad_s_) + options_.standstill_speed_rad_s;
+  const bool is_near = std::abs(feedback.speed_rad_s - wanted_rad_s_) <= tolerance_rad_s;
+  if (is_near || (status_ & statusword::kTargetReached) != 0) reach_deadline_ns_ = kNever;
+}
+
+void MotorSession::step_enable(HostStamp at_ns) {
+  if (drive_state_ == DriveState::Enabled && acted_on_ == DriveState::Enabled) {
+    good_feedbacks_ = 0;
+    target_ns_ = at_ns;
+    reach_deadline_ns_ = kNever;
+    return enter(Step::Run, kNever);
+  }
+  const auto control = command_to_enable(drive_state_);
+  if (!control || acted_on_ == drive_state_) return;
+  acted_on_ = drive_state_;
+  command(*control, 0);
+  step_deadline_ns_ = at_ns + to_ns(options_.state_timeout_s);
+}
+
+void MotorSession::step_run(HostStamp at_ns) {
+  if (drive_state_ == DriveState::Enabled) return;
+  std::string detail =
+      "the drive left operation by itself (statusword " + hex_text(status_, 4) + ", " + to_string(drive_state_) + ")";
+  const bool is_unpowered = (status_ & statusword::kVoltage) == 0;
+  detail += is_unpowered ? ": safe torque off, or no motor voltage" : ": a quick stop input, or another master";
+  if (good_feedbacks_ < kProvenFeedbacks) return fail(MotorTrouble::SwitchedOff, std::move(detail), at_ns);
+  report(MotorTrouble::SwitchedOff, std::move(detail), at_ns);
+  acted_on_.reset();
+  enter(Step::Enable, at_ns + to_ns(options_.state_timeout_s));
+}
+
+void MotorSession::begin_fault(HostStamp at_ns) {
+  command(controlword::kDisableVoltage, 0);
+  is_local_told_ = false;
+  is_limit_told_ = false;
+  sdo_.cancel(at_ns);
+  sdo_.read(objects::kErrorCode, at_ns);
+  enter(Step::ReadFault, kNever);
+}
+
+void MotorSession::tell_fault(const SdoResult& result, HostStamp at_ns) {
+  std::string detail = "statusword " + hex_text(status_, 4);
+  if (result.outcome == SdoResult::Outcome::Done) {
+    const auto code = static_cast<std::uint16_t>(result.number());
+    detail += ", error " + hex_text(code, 4) + " (" + describe_error_code(code) + ")";
+  }
+  if (emergency_) detail += ", last EMCY " + describe(*emergency_);
+  report(MotorTrouble::Fault, std::move(detail), at_ns);
+  enter(Step::WaitReset, at_ns + kResetPause_ns);
+}
+
+void MotorSession::step_fault(HostStamp at_ns) {
+  if (!is_fault(drive_state_) && step_ != Step::ReadFault) {
+    command(controlword::kDisableVoltage, 0);
+    acted_on_.reset();
+    return enter(Step::Enable, at_ns + to_ns(options_.state_timeout_s));
+  }
+  // The reset is an edge: a statusword that came after the command without the bit proves that the drive has seen it.
+  if (step_ == Step::ResetFault && command_.control == controlword::kDisableVoltage) {
+    command(controlword::kFaultReset, 0);
+  }
+}
+
+HostStamp MotorSession::reset_allowed_ns() const {
+  const auto most = static_cast<std::size_t>(options_.max_fault_resets);
+  if (most == 0) return kNever;
+  if (resets_ns_.size() < most) return kLongAgo;
+  return resets_ns_[resets_ns_.size() - most] + to_ns(options_.fault_reset_window_s);
+}
+
+void MotorSession::try_reset(HostStamp now_ns) {
+  step_deadline_ns_ = now_ns + kResetPause_ns;
+  if (drive_state_ != DriveState::Fault) return;
+  if ((status_ & statusword::kRemote) == 0) {
+    if (!is_local_told_) {
+      report(MotorTrouble::StateTimeout,
+             "the fault is not reset: the drive is not under remote control (bit 9 of statusword " +
+                 hex_text(status_, 4) + "); release its local control",
+             now_ns);
+    }
+    is_local_told_ = true;
+    return;
+  }
+  const HostStamp allowed_ns = reset_allowed_ns();
+  if (now_ns < allowed_ns) {
+    if (!is_limit_told_) {
+      const std::string next = allowed_ns == kNever
+                                   ? "reset it by hand"
+                                   : "next in " + tenths(static_cast<double>(allowed_ns - now_ns) * 1e-9) + " s";
+      report(MotorTrouble::StateTimeout,
+             "no more fault resets than " + std::to_string(options_.max_fault_resets) + " in " +
+                 tenths(options_.fault_reset_window_s) + " s; " + next + ", or remove the cause",
+             now_ns);
+    }
+    is_limit_told_ = true;
+    return;
+  }
+  resets_ns_.push_back(now_ns);
+  if (resets_ns_.size() > static_cast<std::size_t>(options_.max_fault_resets)) resets_ns_.pop_front();
+  is_limit_told_ = false;
+  command(controlword::kDisableVoltage, 0);
+  enter(Step::ResetFault, now_ns + to_ns(options_.state_timeout_s));
+}
+
+void MotorSession::advance_transfers(HostStamp now_ns) {
+  while (const auto result = sdo_.take_result()) on_sdo_result(*result, now_ns);
+}
+
+void MotorSession::on_sdo_result(const SdoResult& result, HostStamp at_ns) {
+  if (step_ == Step::Search) {
+    if (result.outcome != SdoResult::Outcome::NoAnswer) begin_setup(at_ns);
+  } else if (step_ == Step::Setup) {
+    auto advance = setup_.on_result(sdo_, result, at_ns);
+    if (advance.trouble) report(advance.trouble->trouble, std::move(advance.trouble->detail), at_ns);
+    if (advance.progress == SetupSequence::Progress::Failed) back_off(at_ns);
+    if (advance.progress != SetupSequence::Progress::Done) return;
+    events_.emplace_back(setup_.drive());
+    send(encode_nmt(NmtCommand::Start, node_));
+    heartbeat_ns_ = at_ns;
+    enter(Step::StartNode, at_ns + to_ns(options_.state_timeout_s));
+  } else if (step_ == Step::ReadFault) {
+    tell_fault(result, at_ns);
+  } else if (step_ == Step::Stop) {
+    if (stopping_.on_result(sdo_, result, at_ns)) end_stop();
+  }
+}
+
+void MotorSession::obey_request(HostStamp now_ns) {
+  const Request request = std::exchange(request_, Request::None);
+  if (request == Request::Start) {
+    if (step_ == Step::Stopped) begin_search(now_ns);
+    host_heartbeat_due_ns_ = now_ns;
+  } else if (request != Request::None && step_ != Step::Stopped) {
+    const bool is_quick = request == Request::QuickStop;
+    if (step_ != Step::Stop || is_quick) begin_stop(is_quick, now_ns);
+  }
+}
+
+void MotorSession::watch_drive(HostStamp now_ns) {
+  if (is_watched() && now_ns >= heartbeat_ns_ + to_ns(kHeartbeatsLost * options_.heartbeat_s)) {
+    report(MotorTrouble::HeartbeatLost,
+           "no heartbeat from node " + std::to_string(options_.node_id) + " for 2.5 periods", now_ns);
+    return begin_search(now_ns);
+  }
+  const HostStamp silence_ns = std::max(kLeastSilence_ns, kSyncsLost * to_ns(1.0 / options_.sync_rate_hz));
+  if (is_operational() && now_ns >= status_ns_ + silence_ns) {
+    fail(MotorTrouble::HeartbeatLost,
+         "the drive sends its heartbeat, but no whole statusword (TPDO 1) after a SYNC: is its mapping as it was set?",
+         now_ns);
+  }
+}
+
+void MotorSession::watch_step(HostStamp now_ns) {
+  if (step_ == Step::Setup) setup_.on_time(sdo_, now_ns);
+  if (step_ == Step::Stop) stopping_.on_time(sdo_, now_ns);
+  if (step_ == Step::Search && now_ns >= probe_ns_) {
+    probe_ns_ = kNever;
+    send(encode_nmt(NmtCommand::EnterPreOperational, node_));
+    if (!sdo_.is_busy()) sdo_.read(objects::kDeviceType, now_ns);
+  }
+  if (step_ == Step::Run && now_ns >= reach_deadline_ns_) {
+    reach_deadline_ns_ = kNever;
+    report(MotorTrouble::NotReached,
+           "wanted " + std::to_string(wanted_rad_s_) + " rad/s, the drive tells " + std::to_string(speed_rad_s_) +
+               ": is the disk blocked, or are the ramps too slow?",
+           now_ns);
+  }
+  if (now_ns < step_deadline_ns_) return;
+  switch (step_) {
+    case Step::Search:
+      if (!is_muted_) {
+        report(MotorTrouble::HeartbeatLost,
+               "no drive answers as node " + std::to_string(options_.node_id) + " on " + options_.interface +
+                   ": is it powered and wired, are its node number and bit rate right?",
+               now_ns);
+      }
+      return begin_search(now_ns);
+    case Step::StartNode:
+      return fail(MotorTrouble::StateTimeout, "the drive does not become operational", now_ns);
+    case Step::Enable: {
+      std::string detail = "the drive stays in \"" + std::string(to_string(drive_state_)) + "\" (statusword " +
+                           hex_text(status_, 4) + ")";
+      if ((status_ & statusword::kVoltage) == 0) detail += ": safe torque off, or no motor voltage";
+      if ((status_ & statusword::kRemote) == 0) detail += ": not under remote control";
+      return fail(MotorTrouble::StateTimeout, std::move(detail), now_ns);
+    }
+    case Step::WaitReset:
+      return try_reset(now_ns);
+    case Step::ResetFault:
+      report(MotorTrouble::StateTimeout, "the fault does not clear: its cause is still there", now_ns);
+      return enter(Step::WaitReset, now_ns + kResetPause_ns);
+    case Step::Backoff:
+      return begin_search(now_ns);
+    default:
+      return;
+  }
+}
+
+void MotorSession::send_cyclic(HostStamp now_ns) {
+  if (step_ == Step::Stopped || step_ == Step::Start) return;
+  if (now_ns >= host_heartbeat_due_ns_) {
+    send(encode_heartbeat(static_cast<std::uint8_t>(options_.host_node_id), NmtState::Operational));
+    host_heartbeat_due_ns_ = now_ns + to_ns(options_.host_heartbeat_s / 3.0);
+  }
+  if (!is_operational()) return;
+  follow_wanted(now_ns);
+  if (is_command_new_ || now_ns >= command_due_ns_) send_command(now_ns);
+  if (now_ns < sync_due_ns_) return;
+  send(encode_sync());
+  assembler_.on_sync(now_ns);
+  const HostStamp period_ns = to_ns(1.0 / options_.sync_rate_hz);
+  sync_due_ns_ += period_ns;
+  if (sync_due_ns_ <= now_ns) sync_due_ns_ = now_ns + period_ns;
+}
+
+void MotorSession::follow_wanted(HostStamp now_ns) {
+  if (step_ != Step::Run) return;
+  const std::int32_t target = units_.velocity_units(wanted_rad_s_);
+  if (target == command_.target) return;
+  const double change_rad_s = std::abs(units_.speed_rad_s(target) - speed_rad_s_);
+  const double ramp_s = change_rad_s / std::min(options_.acceleration_rad_s2, options_.deceleration_rad_s2);
+  target_ns_ = now_ns;
+  reach_deadline_ns_ = now_ns + to_ns(ramp_s + options_.reach_timeout_s);
+  command(controlword::kEnable, target);
+}
+
+void MotorSession::command(std::uint16_t control, std::int32_t target) {
+  command_ = {control, target};
+  is_command_new_ = true;
+}
+
+void MotorSession::send_command(HostStamp now_ns) {
+  CanFrame frame{static_cast<std::uint16_t>(cob::kRpdo1 + node_), kCommandPdoBytes, {}};
+  store_little_endian(command_.control, std::span(frame.data).first(2));
+  store_little_endian(static_cast<std::uint32_t>(command_.target), std::span(frame.data).subspan(2, 4));
+  send(frame);
+  is_command_new_ = false;
+  command_due_ns_ = now_ns + kCommandRepeat_ns;
+}
+
+void MotorSession::send(const CanFrame& frame) {
+  if (output_.size() < kMaxOutput) {
+    output_.push_back(frame);
+  } else {
+    ++counters_.dropped_frames;
+  }
+}
+
+void MotorSession::report(MotorTrouble trouble, std::string detail, HostStamp at_ns) {
+  const auto index = static_cast<std::size_t>(trouble);
+  ++counters_.troubles[index];
+  const bool is_anybodys = trouble == MotorTrouble::Unexpected || trouble == MotorTrouble::Bus;
+  if (is_anybodys && at_ns < told_ns_[index] + kTellPause_ns) return;
+  told_ns_[index] = at_ns;
+  events_.emplace_back(MotorTroubleEvent{trouble, std::move(detail)});
+}
+
+std::vector<MotorEvent> MotorSession::take_events() { return std::exchange(events_, {}); }
+
+}  // namespace stairway::drivers
