@@ -8,6 +8,7 @@
 
 #include "drivers/backoff.hpp"
 #include "drivers/scip/scan_conversion.hpp"
+#include "drivers/scip/scip_status.hpp"
 #include "drivers/scip/unit_checks.hpp"
 
 namespace stairway::drivers {
@@ -16,6 +17,9 @@ namespace {
 constexpr int kProvenStream = 40;    // scans after which earlier failures are forgiven
 constexpr int kRepeatsToReport = 2;  // after the first: one repetition also comes from rounding
 constexpr std::size_t kMaxQuote = 32;
+// One alone is a lost line. Time for the sensor to follow the command passes before the next attempt.
+constexpr int kWrongLengthsToAskAgain = 4;
+constexpr int kWrongLengthsToRestart = 12;
 
 HostStamp to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
@@ -23,11 +27,7 @@ double scan_period_ns(const SensorParameters& sensor, int skip_scan) {
   return 60e9 / sensor.scan_speed_rpm * (skip_scan + 1);
 }
 
-bool is_unknown_command(std::string_view status) { return status == "0D" || status == "0E"; }
-
-bool is_between(std::string_view status, std::string_view low, std::string_view high) {
-  return status >= low && status <= high;
-}
+bool is_unknown_command(std::string_view status) { return status_kind({}, status) == StatusKind::Unknown; }
 
 }  // namespace
 
@@ -262,6 +262,7 @@ void ScipSession::prepare_stream() {
 
 void ScipSession::begin_stream(HostStamp now_ns) {
   good_scans_ = 0;
+  wrong_lengths_ = 0;
   last_stamp_ms_ = -1;
   enter(Step::Stream, now_ns);
   // The mirror may still be getting up to speed.
@@ -283,6 +284,8 @@ void ScipSession::on_stream_block(const ScipBlock& block, HostStamp now_ns) {
   auto decoded = decode_scan(reply->data, request_, raw_);
   if (!decoded) {
     report(ScipTrouble::Corrupt, std::string("scan: ") + to_string(decoded.error()));
+    if (decoded.error() == ScipError::WrongCount) on_wrong_length(now_ns);
+    if (step_ != Step::Stream) return;
     const auto later_reply = find_reply(reply->data, command_);
     if (!later_reply || later_reply->status != "99") return;
     decoded = decode_scan(later_reply->data, request_, raw_);
@@ -292,18 +295,31 @@ void ScipSession::on_stream_block(const ScipBlock& block, HostStamp now_ns) {
 }
 
 void ScipSession::on_stream_status(std::string_view status, HostStamp now_ns) {
-  if (status == "00") return;
-  if (is_between(status, "21", "49")) {
-    report(ScipTrouble::SelfCheck, "status " + std::string(status) + " in the stream, waiting");
-    deadline_ns_ = std::max(deadline_ns_, now_ns + to_ns(options_.self_check_s));
-  } else if (status == "98") {
-    deadline_ns_ = now_ns + watchdog_ns();
-  } else {
-    const bool is_fault = is_between(status, "50", "97");
-    report(is_fault ? ScipTrouble::SensorFault : ScipTrouble::Refused,
-           "status " + std::string(status) + " in the stream, restarting it");
-    restart_stream(now_ns);
+  const std::string detail = "status " + describe_status(command_, status) + " in the stream";
+  switch (status_kind(command_, status)) {
+    case StatusKind::Ok:
+      return;
+    case StatusKind::SelfCheck:
+      report(ScipTrouble::SelfCheck, detail + ", waiting");
+      deadline_ns_ = std::max(deadline_ns_, now_ns + to_ns(options_.self_check_s));
+      return;
+    case StatusKind::Resumed:
+      deadline_ns_ = now_ns + watchdog_ns();
+      return;
+    case StatusKind::Fault:
+      report(ScipTrouble::SensorFault, detail + ", restarting it");
+      return restart_stream(now_ns);
+    default:
+      report(ScipTrouble::Refused, detail + ", restarting it");
+      return restart_stream(now_ns);
   }
+}
+
+void ScipSession::on_wrong_length(HostStamp now_ns) {
+  if (++wrong_lengths_ % kWrongLengthsToAskAgain != 0) return;
+  if (wrong_lengths_ >= kWrongLengthsToRestart) return restart_stream(now_ns);
+  // The same command once more replaces the stream without a pause.
+  output_.append(command_).push_back('\n');
 }
 
 void ScipSession::accept_scan(HostStamp arrival_ns, bool is_arrival_exact, HostStamp now_ns) {
@@ -322,6 +338,7 @@ void ScipSession::accept_scan(HostStamp arrival_ns, bool is_arrival_exact, HostS
   events_.emplace_back(
       to_laser_scan(raw_, request_, device_.parameters, stamp.stamp_ms, time, options_.stamp_reference));
   ++counters_.scans;
+  wrong_lengths_ = 0;
   if (++good_scans_ >= kProvenStream) failures_ = 0;
   deadline_ns_ = now_ns + watchdog_ns();
 }
@@ -345,7 +362,7 @@ void ScipSession::report(ScipTrouble trouble, std::string detail) {
 }
 
 void ScipSession::report_refusal(std::string_view status) {
-  report(ScipTrouble::Refused, command_ + " was answered with status " + std::string(status));
+  report(ScipTrouble::Refused, command_ + " was answered with status " + describe_status(command_, status));
 }
 
 HostStamp ScipSession::watchdog_ns() const {

@@ -22,10 +22,10 @@ namespace stairway::drivers {
 ///
 /// Opening: drain, QT, TM2, RS, drain, RS, VV, PP, II, BM, MD. A silent stream is first restarted with QT and MD; after
 /// `restarts_before_reopen` failures in a row the session asks for another port and opens from the start, with a
-/// pause that doubles up to `max_backoff_s`, without end. A corrupt scan costs that scan only. Status queries are never
-/// sent into a stream. Commands that a sensor does not know (0D, 0E) are reported and done without; without PP a
-/// UTM-30LX's figures are used, and where ME is not known, ranges are asked for without intensities until the next
-/// opening.
+/// pause that doubles up to `max_backoff_s`, without end. A corrupt scan costs that scan only; when scans of a wrong
+/// length do not end, MD is sent again. Status queries are never sent into a stream. Commands that a sensor does not
+/// know (0D, 0E) are reported and done without; without PP a UTM-30LX's figures are used, and where ME is not known,
+/// ranges are asked for without intensities until the next opening.
 ///
 /// Call `on_bytes` or `on_time` at least once per `deadline()`, with times that do not go back, and send what
 /// `take_output` gives. The first call begins.
@@ -89,6 +89,7 @@ class ScipSession {
   void on_laser_reply(std::string_view status, HostStamp now_ns);
   void on_stream_block(const ScipBlock& block, HostStamp now_ns);
   void on_stream_status(std::string_view status, HostStamp now_ns);
+  void on_wrong_length(HostStamp now_ns);
   void accept_scan(HostStamp arrival_ns, bool is_arrival_exact, HostStamp now_ns);
 
   void prepare_stream();
@@ -118,6 +119,7 @@ class ScipSession {
   bool is_reattaching_ = false;        // the sensor was set up before: only its stream is started again
   bool is_intensity_refused_ = false;  // by this sensor, until it is opened again
   int failures_ = 0;                   // in a row
+  int wrong_lengths_ = 0;              // in a row
   int good_scans_ = 0;                 // of this stream
   std::int64_t last_stamp_ms_ = -1;
   int repeated_stamps_ = 0;
