@@ -54,7 +54,7 @@ TEST(SimFakeUtm30lx, answers_commands_as_specified) {
       {"CR00", "CR00\n04T\n\n"},
       {"HS1", "HS1\n03S\n\n"},
       {"XX", "XX\n0Ee\n\n"},
-      {"ME0000108001000", "ME0000108001000\n0Ee\n\n"},
+      {"GE0000108001", "GE0000108001\n0Ee\n\n"},
       {"SCIP2.0", "SCIP2.0\n0Ee\n\n"},
       {"QT;abcdefghijklmnopq", "QT;abcdefghijklmnopq\n0Gg\n\n"},
       {"QT;a!", "QT;a!\n0Hh\n\n"},
@@ -148,6 +148,41 @@ TEST(SimFakeUtm30lx, a_whole_stream_decodes_to_what_was_measured) {
     EXPECT_LE(delay_ns, 24'500'000);
   }
   EXPECT_TRUE(host.sensor.is_streaming());
+}
+
+TEST(SimFakeUtm30lx, gives_intensities_that_fall_with_the_distance) {
+  Host host;
+  EXPECT_EQ(host.ask("ME0500054001000"), "ME0500054001000\n00P\n\n");
+  const auto [request, scan] = decode(host.next());
+  EXPECT_TRUE(request.has_intensity());
+  ASSERT_EQ(scan.intensities.size(), 41U);
+  EXPECT_EQ(scan.ranges_mm.front(), 3500U);
+  EXPECT_EQ(scan.intensities.front(), 16'000'000U / 4500U);
+  EXPECT_LT(scan.intensities.back(), scan.intensities.front());
+}
+
+TEST(SimFakeUtm30lx, is_overloaded_by_intensities_of_the_whole_field) {
+  Host host;
+  host.ask("ME0000108001000");
+  const std::string first_half = host.next();
+  const HostStamp first_ns = host.now_ns;
+  EXPECT_EQ(first_half.size() + host.next().size(), 6717U);
+  EXPECT_NEAR(static_cast<double>(host.now_ns - first_ns), 25e6, 1e3);
+  for (int i = 0; i < 7; ++i) host.next();
+  EXPECT_NEAR(static_cast<double>(host.now_ns - first_ns), 4 * 50e6, 1e6);
+}
+
+TEST(SimFakeUtm30lx, answers_the_time_at_once_when_it_is_that_kind) {
+  FakeUtm30lxOptions options;
+  options.answers_time_at_once = true;
+  options.clock_rate = 1.0;
+  Host host{options};
+  EXPECT_EQ(host.ask("TM1"), "TM1\n04T\n\n");
+  host.ask("TM0");
+  const HostStamp asked_ns = host.now_ns;
+  const std::string answer = host.ask("TM1");
+  EXPECT_EQ(host.now_ns - asked_ns, kMillisecond_ns);
+  EXPECT_EQ(drivers::decode_number(answer.substr(8, 4)).value(), (asked_ns + kMillisecond_ns / 2) / kMillisecond_ns);
 }
 
 TEST(SimFakeUtm30lx, counts_down_a_counted_stream_and_falls_silent) {

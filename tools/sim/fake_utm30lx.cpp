@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/sim/fake_utm30lx.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "drivers/scip/scip_replies.hpp"
 #include "tools/sim/random.hpp"
 #include "tools/sim/scanner_model.hpp"
+#include "tools/sim/sensor_texts.hpp"
 
 namespace stairway::sim {
 namespace {
@@ -26,6 +25,10 @@ constexpr HostStamp kHostBuffer_ns = 1'000'000'000;
 constexpr std::uint32_t kCounterMask = 0xffffff;
 constexpr int kLeastRange_mm = 23;
 constexpr std::size_t kLongestTag = 16;
+constexpr std::int64_t kClockJump_ms = 100'000;
+constexpr HostStamp kFastAnswer_ns = 1'000'000;
+// Beams with intensity that it manages in one turn of the mirror: 95 degrees.
+constexpr int kMostBeamsWithIntensity = 381;
 
 bool is_number(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -43,6 +46,11 @@ std::string refusal(std::string_view parameters, bool is_stream) {
     parameters.remove_prefix(std::min(digits, parameters.size()));
   }
   return {};
+}
+
+// Some strength that falls with the distance, as of a grey wall; 0 where there is no echo.
+std::uint32_t intensity_of(std::uint32_t range_mm) {
+  return range_mm < kLeastRange_mm ? 0 : 16'000'000 / (1000 + std::min(range_mm, 100'000U));
 }
 
 // The nearest distance of neighbouring beams, or an error code when none of them has one.
@@ -93,7 +101,11 @@ void FakeUtm30lx::receive(std::string_view bytes, HostStamp now_ns) {
       if (line_.size() < kLongestLine) line_.push_back(c);
       continue;
     }
-    if (!line_.empty() && commands_.size() < kMostCommands) commands_.push_back({now_ns, line_});
+    if (line_ == "TM1" && options_.answers_time_at_once && commands_.empty()) {
+      answer_time_at_once(now_ns);
+    } else if (!line_.empty() && commands_.size() < kMostCommands) {
+      commands_.push_back({now_ns, line_});
+    }
     line_.clear();
   }
 }
@@ -140,6 +152,11 @@ void FakeUtm30lx::run_turn() {
     if (stream_ != before) return;
   }
   if (!was_streaming || !stream_) return;
+  if (is_stuck_ || faults_.take(SensorFault::Stuck)) {
+    is_stuck_ = true;
+    return;
+  }
+  if (is_checking_itself()) return;
   if (turns_to_skip_ > 0) {
     --turns_to_skip_;
     return;
@@ -148,7 +165,40 @@ void FakeUtm30lx::run_turn() {
   send_scan();
 }
 
-void FakeUtm30lx::say(std::string bytes) { output_.push_back({turn_due_ns(turn_), std::move(bytes)}); }
+void FakeUtm30lx::inject(SensorFault fault, int count) {
+  if (fault == SensorFault::ClockJump) {
+    counter_start_ms_ += kClockJump_ms;
+  } else if (fault == SensorFault::ClockReset) {
+    set_counter_to_zero();
+  } else {
+    faults_.add(fault, count);
+  }
+}
+
+bool FakeUtm30lx::is_checking_itself() {
+  if (const int turns = faults_.take_all(SensorFault::SelfCheck); turns > 0) {
+    check_turns_ = turns;
+    say(drivers::encode_reply(stream_echo(), "21"));
+    return true;
+  }
+  if (check_turns_ == 0) return false;
+  if (--check_turns_ == 0) say(drivers::encode_reply(stream_echo(), "98"));
+  return true;
+}
+
+// In two pieces, and every third message broken; the turn in between is lost.
+void FakeUtm30lx::say_slowly(std::string message) {
+  if (turn_ % 3 == 0) message = with_flipped_bit(std::move(message), stream_echo().size() + 5, turn_);
+  const std::size_t half = message.size() / 2;
+  say(message.substr(0, half));
+  say(message.substr(half), turn_start_ns(1) - turn_start_ns(0));
+  turns_to_skip_ = 1;
+}
+
+void FakeUtm30lx::say(std::string bytes, HostStamp delay_ns) {
+  if (faults_.take(SensorFault::Garbage)) bytes = with_garbage_before(bytes, turn_);
+  output_.push_back({turn_due_ns(turn_) + delay_ns, std::move(bytes), 0});
+}
 
 void FakeUtm30lx::answer(const std::string& line) {
   const auto command = drivers::parse_command(line);
@@ -165,19 +215,22 @@ void FakeUtm30lx::answer(const std::string& line) {
   } else if (is_adjusting_time_) {
     status = "0E";
   } else if (command->symbol == "VV" || command->symbol == "PP" || command->symbol == "II") {
-    body = command->symbol == "VV" ? version_lines() : command->symbol == "PP" ? parameter_lines() : state_lines();
+    body = describe(command->symbol);
     status = "00";
   } else if (command->symbol == "BM") {
-    status = std::exchange(is_laser_on_, true) ? "02" : "00";
+    const bool is_refused = faults_.take(SensorFault::LaserNotReady);
+    status = is_refused ? "10" : std::exchange(is_laser_on_, true) ? "02" : "00";
   } else if (command->symbol == "QT") {
+    if (faults_.take(SensorFault::QuitIgnored)) return;
     is_laser_on_ = false;
-    stream_.reset();
+    end_stream();
     status = "00";
   } else if (command->symbol == "CR") {
     status = "04";
   } else if (command->symbol == "HS") {
     status = "03";
-  } else if (command->symbol == "MD" || command->symbol == "MS" || command->symbol == "GD" || command->symbol == "GS") {
+  } else if (command->symbol == "MD" || command->symbol == "MS" || command->symbol == "ME" || command->symbol == "GD" ||
+             command->symbol == "GS") {
     status = start_scan(*command, body);
   }
   say(drivers::encode_reply(line, status, body));
@@ -185,7 +238,7 @@ void FakeUtm30lx::answer(const std::string& line) {
 
 std::string FakeUtm30lx::answer_time_command(std::string_view parameters, std::string& body) {
   if (parameters == "0") {
-    if (stream_) return "10";
+    if (stream_ || faults_.take(SensorFault::TimeRefused)) return "10";
     is_laser_on_ = false;
     return std::exchange(is_adjusting_time_, true) ? "02" : "00";
   }
@@ -196,6 +249,14 @@ std::string FakeUtm30lx::answer_time_command(std::string_view parameters, std::s
   }
   if (parameters == "2") return std::exchange(is_adjusting_time_, false) ? "00" : "03";
   return "01";
+}
+
+void FakeUtm30lx::answer_time_at_once(HostStamp now_ns) {
+  std::string body;
+  if (is_adjusting_time_) {
+    drivers::append_line(body, drivers::encode_number(counter_at(now_ns + kFastAnswer_ns / 2), 4));
+  }
+  output_.push_back({now_ns + kFastAnswer_ns, drivers::encode_reply("TM1", is_adjusting_time_ ? "00" : "04", body), 0});
 }
 
 std::string FakeUtm30lx::start_scan(const drivers::Command& command, std::string& body) {
@@ -210,80 +271,87 @@ std::string FakeUtm30lx::start_scan(const drivers::Command& command, std::string
     return "00";
   }
   is_laser_on_ = true;
+  end_stream();
   stream_ = request;
   stream_tag_ = command.tag;
   turns_to_skip_ = 0;
   return "00";
 }
 
+std::string FakeUtm30lx::stream_echo() const {
+  return drivers::to_command(*stream_) + (stream_tag_.empty() ? "" : ";" + stream_tag_);
+}
+
+std::string FakeUtm30lx::describe(std::string_view symbol) {
+  if (symbol == "VV") return version_lines(options_.firmware, options_.serial);
+  if (symbol == "PP") return parameter_lines();
+  const bool is_ill = faults_.take(SensorFault::StatTrouble);
+  return state_lines(is_laser_on_, counter_at(turn_due_ns(turn_)),
+                     is_ill ? "Trouble!! Error No. =[00->33] " : "Sensor works well.");
+}
+
 void FakeUtm30lx::send_scan() {
+  if (faults_.take(SensorFault::LaserFault)) {
+    say(drivers::encode_reply(stream_echo(), "50"));
+    end_stream();
+    return;
+  }
   const bool is_counted = stream_->scans > 0;
   if (is_counted) --stream_->scans;
-  std::string message = drivers::to_command(*stream_);
-  if (!stream_tag_.empty()) message += ";" + stream_tag_;
-  say(drivers::encode_reply(message, "99", scan_body(*stream_)));
+  const std::string echo = stream_echo();
+  std::string message = drivers::encode_reply(echo, "99", scan_body(*stream_));
+  if (faults_.take(SensorFault::WrongLength)) is_short_ = true;
+  if (is_short_) message = without_last_data_line(std::move(message));
+  if (faults_.take(SensorFault::BadSum)) message = with_flipped_bit(std::move(message), echo.size() + 5, turn_);
+  if (faults_.take(SensorFault::LostLineFeed)) message = without_a_line_feed(std::move(message), turn_);
+  if (is_overloaded()) {
+    say_slowly(std::move(message));
+  } else {
+    say(std::move(message));
+  }
   if (is_counted && stream_->scans == 0) {
-    stream_.reset();
+    end_stream();
     is_laser_on_ = false;
   }
 }
 
-std::string FakeUtm30lx::scan_body(const drivers::ScanRequest& request) const {
+bool FakeUtm30lx::is_overloaded() const {
+  return stream_->has_intensity() && stream_->skip_scan == 0 && stream_->max_values() > kMostBeamsWithIntensity;
+}
+
+void FakeUtm30lx::end_stream() {
+  stream_.reset();
+  is_stuck_ = false;
+  is_short_ = false;
+  check_turns_ = 0;
+}
+
+std::string FakeUtm30lx::scan_body(const drivers::ScanRequest& request) {
   std::vector<std::uint32_t> values(kBeams);
   measure_(turn_, turn_start_ns(turn_), values);
   const std::uint32_t largest = (1U << (6 * request.number_length())) - 1;
   drivers::RawScan scan;
-  scan.stamp_ms = counter_at(turn_start_ns(turn_));
+  if (!faults_.take(SensorFault::RepeatedStamp)) last_stamp_ms_ = counter_at(turn_start_ns(turn_));
+  scan.stamp_ms = last_stamp_ms_;
   for (int step = request.first_step; step <= request.last_step; step += request.effective_cluster()) {
     const int size = std::min(request.effective_cluster(), request.last_step - step + 1);
     const auto group = std::span{values}.subspan(static_cast<std::size_t>(step), static_cast<std::size_t>(size));
     scan.ranges_mm.push_back(std::min(nearest(group), largest));
+    if (request.has_intensity()) scan.intensities.push_back(intensity_of(scan.ranges_mm.back()));
   }
   return drivers::encode_scan_data(scan, request);
 }
 
 void FakeUtm30lx::reset(bool is_clock_reset) {
-  stream_.reset();
+  end_stream();
   is_laser_on_ = false;
   is_adjusting_time_ = false;
-  if (!is_clock_reset) return;
+  if (is_clock_reset) set_counter_to_zero();
+}
+
+void FakeUtm30lx::set_counter_to_zero() {
   counter_start_ns_ = turn_start_ns(turn_);
   counter_start_ms_ = 0;
-}
-
-std::string FakeUtm30lx::version_lines() const {
-  std::string lines;
-  drivers::append_key_value(lines, "VEND", "Hokuyo Automatic Co.,Ltd.");
-  drivers::append_key_value(lines, "PROD", "SOKUIKI Sensor TOP-URG UTM-30LX");
-  drivers::append_key_value(lines, "FIRM", "1.18.01(09/Jul./2010)");
-  drivers::append_key_value(lines, "PROT", "SCIP 2.0");
-  drivers::append_key_value(lines, "SERI", "SIMULATED");
-  return lines;
-}
-
-std::string FakeUtm30lx::parameter_lines() const {
-  std::string lines;
-  drivers::append_key_value(lines, "MODL", "UTM-30LX(Hokuyo Automatic Co.,Ltd.)");
-  drivers::append_key_value(lines, "DMIN", std::to_string(kLeastRange_mm));
-  drivers::append_key_value(lines, "DMAX", "60000");
-  drivers::append_key_value(lines, "ARES", std::to_string(kStepsPerTurn));
-  drivers::append_key_value(lines, "AMIN", "0");
-  drivers::append_key_value(lines, "AMAX", std::to_string(kBeams - 1));
-  drivers::append_key_value(lines, "AFRT", std::to_string(kFrontBeam));
-  drivers::append_key_value(lines, "SCAN", "2400");
-  return lines;
-}
-
-std::string FakeUtm30lx::state_lines() const {
-  std::string lines;
-  drivers::append_key_value(lines, "MODL", "UTM-30LX(Hokuyo Automatic Co.,Ltd.)");
-  drivers::append_key_value(lines, "LASR", is_laser_on_ ? "ON" : "OFF");
-  drivers::append_key_value(lines, "SCSP", "Initial(2400[rpm])<-Default setting by user");
-  drivers::append_key_value(lines, "MESM", "CLASSIC");
-  drivers::append_key_value(lines, "SBPS", "USB Full Speed");
-  drivers::append_key_value(lines, "TIME", fmt::format("{:06X}", counter_at(turn_due_ns(turn_))));
-  drivers::append_key_value(lines, "STAT", "Sensor works well.");
-  return lines;
 }
 
 }  // namespace stairway::sim

@@ -14,6 +14,7 @@
 #include "drivers/ports/byte_port.hpp"
 #include "drivers/scip/scip_commands.hpp"
 #include "drivers/types.hpp"
+#include "tools/sim/sensor_faults.hpp"
 
 namespace stairway::sim {
 
@@ -26,6 +27,9 @@ struct FakeUtm30lxOptions {
   double latency_s = 0.0235;             ///< least time from the rear-pointing beam to the first byte at the host
   double jitter_s = 0.001;               ///< added to it, evenly distributed from 0; at most a turn period
   std::uint64_t seed = 1;                ///< of the jitter
+  bool answers_time_at_once = false;     ///< TM1 after a millisecond instead of at the next mirror turn
+  std::string firmware = "1.18.01(09/Jul./2010)";
+  std::string serial = "SIMULATED";
 
   /// First problem found; empty when usable.
   std::string problem() const;
@@ -34,9 +38,11 @@ struct FakeUtm30lxOptions {
 /// A Hokuyo UTM-30LX as its USB cable shows it: SCIP 2.0 commands in, replies and scans out, each at its time. It has
 /// no thread or clock; results depend on what is received and when.
 ///
-/// It knows VV PP II BM QT RS RT TM0 TM1 TM2 MD MS GD GS, refuses CR and HS as the real one does, and answers 0E to the
-/// rest, ME included. One command is answered per mirror turn. In time adjustment it answers 0E to all but TM and RS.
-/// Stamps are the counter at the rear-pointing beam, floored to milliseconds.
+/// It knows VV PP II BM QT RS RT TM0 TM1 TM2 MD MS ME GD GS, refuses CR and HS as the real one does, and answers 0E to
+/// the rest. One command is answered per mirror turn. In time adjustment it answers 0E to all but TM and RS. Stamps are
+/// the counter at the rear-pointing beam, floored to milliseconds. Intensities come from the distances. Asked for more
+/// than 95 degrees of them in every turn, it is overloaded: scans come late, every other one is lost, and some are
+/// broken.
 class FakeUtm30lx {
  public:
   /// Fills in the ranges of the mirror turn `turn`, which began at `start_ns` and lasts a turn period: 1081 values in
@@ -55,6 +61,9 @@ class FakeUtm30lx {
   /// is more than a second late loses scans.
   std::optional<drivers::ByteChunk> take(drivers::HostStamp now_ns);
 
+  /// Makes something go wrong, from now on and so often. What ends a stream's fault is said at each; RS ends none.
+  void inject(SensorFault fault, int count = 1);
+
   bool is_streaming() const { return stream_.has_value(); }
 
  private:
@@ -70,14 +79,19 @@ class FakeUtm30lx {
   void run_turn();
   void answer(const std::string& line);
   std::string answer_time_command(std::string_view parameters, std::string& body);
+  void answer_time_at_once(drivers::HostStamp now_ns);
   std::string start_scan(const drivers::Command& command, std::string& body);
   void send_scan();
-  std::string scan_body(const drivers::ScanRequest& request) const;
-  void say(std::string bytes);
+  std::string scan_body(const drivers::ScanRequest& request);
+  std::string stream_echo() const;
+  std::string describe(std::string_view symbol);
+  bool is_checking_itself();
+  bool is_overloaded() const;
+  void say(std::string bytes, drivers::HostStamp delay_ns = 0);
+  void say_slowly(std::string message);
+  void end_stream();
   void reset(bool is_clock_reset);
-  std::string version_lines() const;
-  std::string parameter_lines() const;
-  std::string state_lines() const;
+  void set_counter_to_zero();
 
   FakeUtm30lxOptions options_;
   RangeSource measure_;
@@ -93,6 +107,12 @@ class FakeUtm30lx {
   std::optional<drivers::ScanRequest> stream_;  // `scans` counts down
   std::string stream_tag_;
   int turns_to_skip_ = 0;
+
+  SensorFaults faults_;
+  bool is_stuck_ = false;
+  bool is_short_ = false;
+  int check_turns_ = 0;
+  std::uint32_t last_stamp_ms_ = 0;
 };
 
 }  // namespace stairway::sim
