@@ -23,11 +23,12 @@ constexpr auto kPause = 20ms;
 
 }  // namespace
 
-DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
+DaemonProcess::DaemonProcess(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
+                             const std::string& program) {
   static int number = 0;
   const std::string name = "stairwayd_" + std::to_string(::getpid()) + "_" + std::to_string(number++) + ".log";
   output_file_ = std::filesystem::path(testing::TempDir()) / name;
-  std::vector<char*> argv{const_cast<char*>(STAIRWAYD)};
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_ = ::fork();

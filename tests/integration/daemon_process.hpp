@@ -12,16 +12,18 @@
 
 namespace stairway::test {
 
-/// A running stairwayd; killed when it goes out of scope.
+/// A running stairwayd, or another program; killed when it goes out of scope.
 class DaemonProcess {
  public:
   /// @param environment  assignments added to this process's environment.
-  explicit DaemonProcess(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+  explicit DaemonProcess(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {},
+                         const std::string& program = STAIRWAYD);
   ~DaemonProcess();
   DaemonProcess(const DaemonProcess&) = delete;
   DaemonProcess& operator=(const DaemonProcess&) = delete;
 
   void signal(int number) const;
+  pid_t id() const { return pid_; }
   /// Its exit code; empty when it still runs after `timeout`, -1 when a signal ended it.
   std::optional<int> wait(std::chrono::milliseconds timeout);
   bool is_running() { return !wait(std::chrono::milliseconds(0)); }
