@@ -30,8 +30,10 @@ Machine& Machine::get() {
 
 Machine::Machine() : rig_(modules()) {
   rig_.plug_scanner();
+  rig_.add_bus();
+  rig_.add_encoder_chip();
   robot_ = std::make_unique<test::DaemonProcess>(
-      std::vector<std::string>{"--table", SCAN_TABLE, "--tty", Rig::kTty, "--socket", kOrders},
+      std::vector<std::string>{"--table", SCAN_TABLE, "--tty", Rig::kTty, "--can", Rig::kBus, "--socket", kOrders},
       std::vector<std::string>{}, FAKE_ROBOT);
   if (!robot_->has_said("ready", 20s)) throw std::runtime_error("fake_robot: " + robot_->output());
 }

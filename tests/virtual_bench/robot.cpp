@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/virtual_bench/robot.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "drivers/host_clock.hpp"
 #include "tools/sim/scanner_model.hpp"
 
 namespace stairway::bench {
@@ -19,25 +19,28 @@ drivers::HostStamp beam_stamp_ns(drivers::HostStamp turn_start_ns, int beam) {
   return turn_start_ns + std::llround(1e9 * sim::kTurnPeriod_s * turns);
 }
 
-sim::FakeUtm30lxOptions scanner_options(drivers::HostStamp start_ns) {
-  sim::FakeUtm30lxOptions options;
-  options.start_ns = start_ns;
+template <class Options>
+Options switched_on_now() {
+  Options options;
+  options.start_ns = now_ns();
   return options;
 }
 
 }  // namespace
 
-drivers::HostStamp now_ns() {
-  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
-}
+drivers::HostStamp now_ns() { return drivers::monotonic_now_ns(); }
 
 Robot::Robot(ScanTable what_is_seen)
     : table(std::move(what_is_seen)),
       motion(now_ns(), kStartAngle_rad, 0.0),
-      scanner(scanner_options(now_ns()),
+      drive(switched_on_now<sim::FakeDriveOptions>()),
+      scanner(switched_on_now<sim::FakeUtm30lxOptions>(),
               [this](std::uint64_t, drivers::HostStamp start_ns, std::span<std::uint32_t> values) {
+                drive.advance(now_ns());
                 table.look_up(motion.angle_at(beam_stamp_ns(start_ns, 0)),
                               motion.angle_at(beam_stamp_ns(start_ns, sim::kBeams - 1)), values);
-              }) {}
+              }) {
+  drive.listen([this](drivers::HostStamp stamp_ns, double speed_rad_s) { motion.set_speed(stamp_ns, speed_rad_s); });
+}
 
 }  // namespace stairway::bench
