@@ -45,10 +45,7 @@ MotorSession::MotorSession(const MotorOptions& options)
 }
 
 std::vector<MotorEvent> MotorSession::on_arrivals(std::span<const CanArrival> arrivals, HostStamp now_ns) {
-  if (step_ == Step::Start && request_ == Request::None) {
-    host_heartbeat_due_ns_ = now_ns;
-    begin_search(now_ns);
-  }
+  if (step_ == Step::Start && request_ == Request::None) begin_search(now_ns);
   for (const CanArrival& arrival : arrivals) {
     now_ns_ = std::clamp(arrival.arrival_ns, std::min(now_ns_, now_ns), now_ns);
     if (const auto* frame = std::get_if<CanFrame>(&arrival.what)) on_frame(*frame, now_ns_);
@@ -77,6 +74,7 @@ std::vector<MotorEvent> MotorSession::on_disconnect(HostStamp now_ns, std::strin
     back_off(now_ns);
   }
   is_muted_ = false;
+  host_heartbeat_due_ns_ = kNever;
   sdo_.cancel(now_ns);
   static_cast<void>(sdo_.take_output());
   output_.clear();
@@ -164,6 +162,7 @@ void MotorSession::begin_search(HostStamp now_ns) {
   const HostStamp timeout_ns = to_ns(options_.boot_timeout_s);
   sdo_.cancel(now_ns);
   assembler_.pause();
+  host_heartbeat_due_ns_ = std::min(host_heartbeat_due_ns_, now_ns);
   probe_ns_ = now_ns;
   if (options_.reset_on_start) {
     send(encode_nmt(NmtCommand::ResetCommunication, node_));
@@ -193,6 +192,7 @@ void MotorSession::begin_stop(bool is_quick, HostStamp now_ns) {
 }
 
 void MotorSession::end_stop() {
+  host_heartbeat_due_ns_ = kNever;
   sdo_.cancel(now_ns_);
   if (!stopping_.is_standing()) {
     report(MotorTrouble::StateTimeout,
@@ -244,7 +244,12 @@ void MotorSession::on_frame(const CanFrame& frame, HostStamp at_ns) {
 void MotorSession::on_condition(CanCondition condition, HostStamp at_ns) {
   if (step_ == Step::Stopped || condition == CanCondition::Active) return;
   const bool is_back = condition == CanCondition::LinkUp || condition == CanCondition::Restarted;
-  if (!is_back) report(MotorTrouble::Bus, options_.interface + ": " + to_string(condition), at_ns);
+  if (!is_back) {
+    std::string detail = options_.interface + ": " + to_string(condition);
+    if (condition == CanCondition::LinkDown) detail += "; `ip link set " + options_.interface + " up`";
+    if (condition == CanCondition::BusOff) detail += "; it comes back by itself only with a restart-ms";
+    report(MotorTrouble::Bus, std::move(detail), at_ns);
+  }
   if (condition == CanCondition::LinkDown) is_muted_ = true;
   if (condition == CanCondition::LinkUp) is_muted_ = false;
   const bool is_lost = condition == CanCondition::LinkDown || condition == CanCondition::BusOff;
@@ -463,7 +468,6 @@ void MotorSession::obey_request(HostStamp now_ns) {
   const Request request = std::exchange(request_, Request::None);
   if (request == Request::Start) {
     if (step_ == Step::Stopped) begin_search(now_ns);
-    host_heartbeat_due_ns_ = now_ns;
   } else if (request != Request::None && step_ != Step::Stopped) {
     const bool is_quick = request == Request::QuickStop;
     if (step_ != Step::Stop || is_quick) begin_stop(is_quick, now_ns);
@@ -531,7 +535,6 @@ void MotorSession::watch_step(HostStamp now_ns) {
 }
 
 void MotorSession::send_cyclic(HostStamp now_ns) {
-  if (step_ == Step::Stopped || step_ == Step::Start) return;
   if (now_ns >= host_heartbeat_due_ns_) {
     send(encode_heartbeat(static_cast<std::uint8_t>(options_.host_node_id), NmtState::Operational));
     host_heartbeat_due_ns_ = now_ns + to_ns(options_.host_heartbeat_s / 3.0);

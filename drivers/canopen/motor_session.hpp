@@ -172,7 +172,7 @@ class MotorSession {
   bool is_command_new_ = false;
   HostStamp command_due_ns_ = 0;
   HostStamp sync_due_ns_ = 0;
-  HostStamp host_heartbeat_due_ns_ = 0;
+  HostStamp host_heartbeat_due_ns_ = std::numeric_limits<HostStamp>::max();
   HostStamp reach_deadline_ns_ = std::numeric_limits<HostStamp>::max();
   HostStamp target_ns_ = 0;  // when the target last changed
 
