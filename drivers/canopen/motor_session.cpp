@@ -67,7 +67,7 @@ std::vector<MotorEvent> MotorSession::on_disconnect(HostStamp now_ns, std::strin
   report(MotorTrouble::Disconnected, std::string(detail), now_ns);
   const bool is_stop_wanted = request_ == Request::Stop || request_ == Request::QuickStop;
   if (is_stop_wanted && step_ != Step::Stopped) begin_stop(false, now_ns);
-  request_ = Request::None;
+  if (request_ != Request::Start) request_ = Request::None;
   if (step_ == Step::Stop) {
     end_stop();
   } else if (step_ != Step::Stopped) {
@@ -465,6 +465,7 @@ void MotorSession::on_sdo_result(const SdoResult& result, HostStamp at_ns) {
 }
 
 void MotorSession::obey_request(HostStamp now_ns) {
+  if (request_ == Request::Start && step_ == Step::Stop) return;  // when the stop has ended
   const Request request = std::exchange(request_, Request::None);
   if (request == Request::Start) {
     if (step_ == Step::Stopped) begin_search(now_ns);

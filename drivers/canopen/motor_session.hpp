@@ -65,7 +65,7 @@ class MotorSession {
   void stop();
   /// Likewise, with the drive's quick stop for a brake.
   void quick_stop();
-  /// Begins again after a stop.
+  /// Begins again after a stop; during one, as soon as it has ended.
   void start();
 
   MotorState state() const;

@@ -55,6 +55,19 @@ TEST(MotorSession, works_with_polls_every_50_ms) {
   EXPECT_NEAR(static_cast<double>(bench.all<DriveFeedback>().size()), 20.0 * 20, 10.0);
 }
 
+TEST(MotorSession, begins_again_when_asked_to_while_it_stops) {
+  MotorBench bench;
+  bench.session.set_speed(0.5);
+  ASSERT_TRUE(bench.run_until_speed(0.5, 10.0));
+  bench.session.stop();
+  bench.run(0.1);
+  ASSERT_EQ(bench.session.state(), MotorState::Stopping);
+  bench.session.start();
+  ASSERT_TRUE(bench.run_until(MotorState::Searching, 10.0));
+  EXPECT_EQ(bench.drive.disk_speed_rad_s(), 0.0) << "the stop is not cut short";
+  EXPECT_TRUE(bench.run_until_speed(0.5, 10.0));
+}
+
 TEST(MotorSession, stops_the_disk_and_switches_the_drive_off) {
   MotorBench bench;
   bench.session.set_speed(kSpeed_rad_s);

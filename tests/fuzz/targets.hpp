@@ -20,8 +20,12 @@ struct Target {
 void run_scip(std::span<const std::uint8_t> input);
 std::vector<Seed> scip_seeds();
 
+void run_can(std::span<const std::uint8_t> input);
+std::vector<Seed> can_seeds();
+
 inline constexpr Target kTargets[] = {
     {"scip", run_scip, scip_seeds},
+    {"can", run_can, can_seeds},
 };
 
 }  // namespace stairway::fuzz
