@@ -9,6 +9,7 @@
 
 #include "detector/stairway_detector.hpp"
 #include "drivers/canopen/motor_options.hpp"
+#include "drivers/encoder/encoder_options.hpp"
 #include "drivers/scip/scip_options.hpp"
 #include "drivers/usb/usb_options.hpp"
 #include "ipc/channels.hpp"
@@ -59,6 +60,7 @@ struct Settings {
   drivers::ScipOptions lidar;
   drivers::UsbOptions usb;  ///< keys in the section of the lidar
   drivers::MotorOptions motor;
+  drivers::EncoderOptions encoder;
   scan::MountOptions mount;
   scan::SweepOptions sweep;
   detect::DetectorOptions detector;

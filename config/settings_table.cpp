@@ -87,6 +87,29 @@ void add_motor_settings(std::vector<Entry>& table, drivers::MotorOptions& motor)
       .real("max_backoff", motor.max_backoff_s, kSecond, {0.01, 600}, "longest such pause");
 }
 
+void add_encoder_settings(std::vector<Entry>& table, drivers::EncoderOptions& encoder) {
+  Section(table, "encoder")
+      .text("chip", encoder.chip, "name, label or path of the GPIO chip")
+      .text("line_a", encoder.line_a, "offset on the chip, or name of the line")
+      .text("line_b", encoder.line_b, "likewise")
+      .text("line_index", encoder.line_index, "likewise; empty: none, the position at the start counts as angle 0")
+      .whole("counts_per_turn", encoder.counts_per_turn, 4, 1000000,
+             "edges of A and B together in one turn of the disk, a multiple of 4")
+      .on_off("reverse", encoder.reverse, "A leads B while the disk turns counter-clockwise, seen from above")
+      .choice("bias", encoder.bias, {"none", "pull_up", "pull_down"}, "of the lines")
+      .whole("index_tolerance", encoder.index_tolerance, 0, 1000, "counts by which the index may come aside")
+      .real("harmonic", encoder.harmonic_rad, kMilliradian, {0, 100},
+            "an eccentric disk's angles are wrong by this * sin(angle + phase)")
+      .real("harmonic_phase", encoder.harmonic_phase_rad, kDegree, {-180, 180}, "the phase")
+      .choice("access", encoder.access, {"auto", "libgpiod", "kernel"},
+              "how the lines are read; kernel has the longer queue and tells what it lost")
+      .whole("event_buffer", encoder.event_buffer, 16, 1024, "edges that the kernel keeps for us (kernel)")
+      .whole("debounce_us", encoder.debounce_us, 0, 100000, "shorter pulses are dropped (kernel)")
+      .real("min_backoff", encoder.min_backoff_s, kSecond, {0.01, 60},
+            "pause before the lines are asked for again, doubled by failures")
+      .real("max_backoff", encoder.max_backoff_s, kSecond, {0.01, 600}, "longest such pause");
+}
+
 void add_mount_settings(std::vector<Entry>& table, scan::MountOptions& mount) {
   Section(table, "mount")
       .real("scan_plane_pitch", mount.scan_plane_pitch_rad, kDegree, {-89, 89},
@@ -194,6 +217,7 @@ std::vector<Entry> settings_table(Settings& settings) {
       .text("channel_prefix", settings.lcm.channel_prefix, "in front of every channel name");
   add_lidar_settings(table, settings.lidar, settings.usb);
   add_motor_settings(table, settings.motor);
+  add_encoder_settings(table, settings.encoder);
   add_mount_settings(table, settings.mount);
   add_sweep_settings(table, settings.sweep);
   add_detector_settings(table, settings.detector);

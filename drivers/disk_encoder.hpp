@@ -32,6 +32,9 @@ class DiskEncoder {
   bool is_port_open() const { return port_ != nullptr; }
 
  private:
+  std::vector<EncoderEvent> open(std::chrono::nanoseconds timeout);
+  std::vector<EncoderEvent> lose_port();
+
   PortOpener<EdgePort> opener_;
   Clock now_;
   EncoderSession session_;

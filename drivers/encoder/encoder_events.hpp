@@ -28,9 +28,10 @@ enum class EncoderTrouble : std::uint8_t {
   MissedPair,         ///< a line rose twice in a row, or fell: a pair of edges was lost
   IndexDeviation,     ///< the index came at another count than a revolution asks for
   IndexMissing,       ///< no index within one and a half revolutions
+  DeadLine,           ///< one line changes and the other does not, for an eighth of a revolution
   EdgeRate,           ///< edges come faster than the kernel's queue is safe for
 };
-inline constexpr std::size_t kEncoderTroubles = 7;
+inline constexpr std::size_t kEncoderTroubles = 8;
 const char* to_string(EncoderTrouble trouble);
 
 /// Monotonic counts since the session began.

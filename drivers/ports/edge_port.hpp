@@ -42,6 +42,8 @@ class EdgePort {
   /// Waits at most `timeout` for edges.
   virtual tl::expected<EdgeBatch, PortError> read(std::chrono::nanoseconds timeout) = 0;
   virtual tl::expected<LineLevels, PortError> levels() = 0;
+  /// How many edges of each line are kept until they are read; more of them are lost.
+  virtual int queued_edges() const = 0;
 };
 
 }  // namespace stairway::drivers

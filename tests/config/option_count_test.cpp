@@ -75,6 +75,7 @@ TEST(Options, every_member_has_a_key) {
                             count_members<drivers::UsbOptions>() - 1;
   EXPECT_EQ(keys_of("lidar") + keys_of("lidar.timing"), lidar);
   EXPECT_EQ(keys_of("motor") + keys_of("motor.timing"), count_members<drivers::MotorOptions>());
+  EXPECT_EQ(keys_of("encoder"), count_members<drivers::EncoderOptions>());
 }
 
 }  // namespace

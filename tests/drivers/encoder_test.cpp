@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/drivers/encoder_bench.hpp"
+#include "tools/sim/random.hpp"
+
+namespace stairway::test {
+namespace {
+
+using drivers::EncoderLine;
+using drivers::EncoderOptions;
+using drivers::EncoderSession;
+using drivers::EncoderState;
+using drivers::EncoderTrouble;
+using drivers::QuadratureDecoder;
+using drivers::QuadratureStep;
+
+EncoderOptions coarse() {
+  EncoderOptions options;
+  options.counts_per_turn = 400;
+  return options;
+}
+
+TEST(QuadratureDecoder, reads_every_pair_of_levels) {
+  using enum QuadratureStep;
+  const QuadratureStep table[4][4] = {{None, Forward, Backward, Illegal},
+                                      {Backward, None, Illegal, Forward},
+                                      {Forward, Illegal, None, Backward},
+                                      {Illegal, Backward, Forward, None}};
+  for (int from = 0; from < 4; ++from) {
+    for (int to = 0; to < 4; ++to) {
+      QuadratureDecoder decoder((from & 2) != 0, (from & 1) != 0);
+      EXPECT_EQ(decoder.take((to & 2) != 0, (to & 1) != 0), table[from][to]) << from << " -> " << to;
+      EXPECT_EQ(decoder.take((to & 2) != 0, (to & 1) != 0), None);
+    }
+  }
+}
+
+TEST(DiskEncoder, tells_the_angle_since_the_first_index) {
+  for (const double speed : {1.0, -1.0, 0.18, 30.0}) {
+    SCOPED_TRACE(speed);
+    EncoderBench bench(coarse(), -0.1 * speed / std::abs(speed), speed);
+    bench.run(3.0 * kTurn_rad / std::abs(speed));
+    EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+    EXPECT_EQ(bench.session().counters().indices, 3U);
+    EXPECT_LE(bench.worst_error_counts(), 0.01);
+    EXPECT_FALSE(bench.samples.front().valid);
+    EXPECT_TRUE(bench.samples.back().valid);
+    EXPECT_TRUE(bench.details.empty()) << bench.details.front();
+    const auto measured = bench.session().speed_rad_s(bench.now_ns);
+    ASSERT_TRUE(measured);
+    EXPECT_NEAR(*measured, speed, 1e-3 * std::abs(speed));
+  }
+}
+
+TEST(DiskEncoder, follows_any_motion_within_a_count) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    sim::Random random(seed);
+    EncoderBench bench(coarse(), random.uniform(-3.0, 3.0), 2.0);
+    bench.run(7.0);  // past the index
+    ASSERT_EQ(bench.session().state(), EncoderState::Indexed);
+    for (int change = 0; change < 30; ++change) {
+      bench.motion.set_speed(bench.now_ns, random.uniform(-3.0, 3.0));
+      bench.run(random.uniform(0.001, 2.0));
+    }
+    EXPECT_LE(bench.worst_error_counts(), 1.01);
+    EXPECT_TRUE(bench.details.empty()) << bench.details.front();
+  }
+}
+
+TEST(DiskEncoder, samples_come_in_order_and_not_more_than_200_ms_apart) {
+  EncoderBench bench(coarse(), -0.1, 1.0);
+  bench.run(1.0);
+  bench.motion.set_speed(bench.now_ns, 0.0);
+  bench.run(1.0);
+  bench.motion.set_speed(bench.now_ns, -0.05);
+  bench.run(5.0);
+  ASSERT_GT(bench.samples.size(), 100U);
+  for (std::size_t i = 1; i < bench.samples.size(); ++i) {
+    const auto step_ns = bench.samples[i].stamp_ns - bench.samples[i - 1].stamp_ns;
+    EXPECT_GT(step_ns, 0);
+    EXPECT_LE(step_ns, 200'000'000);
+  }
+}
+
+TEST(DiskEncoder, says_standstill_by_speed_zero) {
+  EncoderBench bench(coarse(), -0.1, 1.0);
+  bench.run(1.0);
+  bench.motion.set_speed(bench.now_ns, 0.0);
+  bench.run(1.0);
+  EXPECT_EQ(bench.session().speed_rad_s(bench.now_ns), 0.0);
+}
+
+TEST(DiskEncoder, a_reversed_encoder_turns_the_other_way) {
+  EncoderOptions options = coarse();
+  options.reverse = true;
+  EncoderBench bench(options, 0.1, -1.0);
+  bench.lines.faults().is_swapped = true;
+  bench.run(8.0);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+  EXPECT_LE(bench.worst_error_counts(), 0.01);
+}
+
+TEST(DiskEncoder, without_an_index_line_the_start_is_zero) {
+  EncoderOptions options = coarse();
+  options.line_index = "";
+  EncoderBench bench(options, 0.0, 1.0);
+  bench.run(8.0);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+  EXPECT_TRUE(bench.samples.front().valid);
+  EXPECT_LE(bench.worst_error_counts(), 1.0);
+}
+
+TEST(DiskEncoder, takes_an_eccentric_disks_error_off) {
+  EncoderOptions options = coarse();
+  options.harmonic_rad = 0.02;
+  options.harmonic_phase_rad = 0.7;
+  EncoderBench bench(options);
+  bench.run(8.0);
+  double most = 0.0;
+  for (const drivers::AngleSample& sample : bench.samples) {
+    const double raw = bench.motion.angle_at(sample.stamp_ns);
+    if (!sample.valid) continue;
+    EXPECT_NEAR(sample.angle_rad, raw - 0.02 * std::sin(raw + 0.7), 1e-6);
+    most = std::max(most, std::abs(sample.angle_rad - raw));
+  }
+  EXPECT_NEAR(most, 0.02, 1e-3);
+}
+
+struct LostCase {
+  const char* name;
+  void (*damage)(sim::FakeEncoderFaults&);
+  EncoderTrouble trouble;
+};
+
+class LostEdges : public testing::TestWithParam<LostCase> {};
+
+TEST_P(LostEdges, are_counted_and_make_angles_invalid_until_the_next_index) {
+  EncoderBench bench(coarse());
+  bench.run(3.0);
+  ASSERT_EQ(bench.session().state(), EncoderState::Indexed);
+  GetParam().damage(bench.lines.faults());
+  bench.run(0.2);
+  EXPECT_GE(bench.count(GetParam().trouble), 1U);
+  EXPECT_EQ(bench.session().state(), EncoderState::Unindexed);
+  EXPECT_FALSE(bench.samples.back().valid);
+  bench.run(kTurn_rad);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+  const std::size_t before = bench.samples.size();
+  bench.run(1.0);
+  bench.samples.erase(bench.samples.begin(), bench.samples.begin() + static_cast<std::ptrdiff_t>(before));
+  EXPECT_LE(bench.worst_error_counts(), 0.01);
+  EXPECT_TRUE(bench.samples.back().valid);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, LostEdges,
+    testing::Values(LostCase{"one", [](sim::FakeEncoderFaults& f) { f.dropped_edges = 1; }, EncoderTrouble::MissedPair},
+                    LostCase{"two", [](sim::FakeEncoderFaults& f) { f.dropped_edges = 2; }, EncoderTrouble::MissedPair},
+                    LostCase{"told", [](sim::FakeEncoderFaults& f) { f.lost_edges = 5; }, EncoderTrouble::LostEdges}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(DiskEncoder, edges_lost_by_whole_periods_are_found_at_the_index) {
+  EncoderBench bench(coarse());
+  bench.run(3.0);
+  bench.lines.faults().dropped_edges = 8;  // two whole periods: nothing looks wrong until the index
+  bench.run(kTurn_rad);
+  EXPECT_EQ(bench.count(EncoderTrouble::IndexDeviation), 1U);
+  EXPECT_EQ(bench.session().state(), EncoderState::Unindexed);
+  bench.run(kTurn_rad);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+}
+
+TEST(DiskEncoder, a_small_deviation_of_the_index_is_mended_without_a_fault) {
+  EncoderBench bench(coarse());
+  bench.run(3.0);
+  bench.lines.faults().index_shift = 2;
+  bench.run(kTurn_rad);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+  EXPECT_TRUE(bench.details.empty());
+}
+
+TEST(DiskEncoder, a_spurious_index_is_told_and_only_two_that_agree_are_believed) {
+  EncoderBench bench(coarse());
+  bench.run(3.0);
+  bench.lines.faults().spurious_indices = 1;
+  bench.run(1.0);
+  EXPECT_EQ(bench.count(EncoderTrouble::IndexDeviation), 1U);
+  EXPECT_EQ(bench.session().state(), EncoderState::Unindexed);
+  bench.run(2.0 * kTurn_rad);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+  const std::size_t before = bench.samples.size();
+  bench.run(1.0);
+  bench.samples.erase(bench.samples.begin(), bench.samples.begin() + static_cast<std::ptrdiff_t>(before));
+  EXPECT_LE(bench.worst_error_counts(), 0.01);
+}
+
+TEST(DiskEncoder, a_dead_index_is_told_after_one_and_a_half_turns) {
+  EncoderBench bench(coarse());
+  bench.run(1.0);
+  bench.lines.faults().is_index_dead = true;
+  bench.run(1.3 * kTurn_rad);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+  bench.run(0.2 * kTurn_rad);
+  EXPECT_EQ(bench.count(EncoderTrouble::IndexMissing), 1U);
+  EXPECT_EQ(bench.session().state(), EncoderState::Unindexed);
+  bench.lines.faults().is_index_dead = false;
+  bench.run(1.1 * kTurn_rad);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+}
+
+TEST(DiskEncoder, a_dead_line_is_never_taken_for_an_angle) {
+  EncoderBench bench(coarse());
+  bench.run(3.0);
+  bench.lines.faults().is_a_dead = true;
+  bench.run(2.0 * kTurn_rad);
+  EXPECT_GE(bench.count(EncoderTrouble::DeadLine), 1U);
+  EXPECT_EQ(bench.session().state(), EncoderState::Unindexed);
+  bench.lines.faults().is_a_dead = false;
+  bench.run(3.0 * kTurn_rad);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+}
+
+TEST(DiskEncoder, bounces_are_counted_off_exactly) {
+  EncoderBench bench(coarse());
+  bench.lines.faults().bounce_probability = 0.3;
+  bench.run(3.0 * kTurn_rad);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+  EXPECT_LE(bench.worst_error_counts(), 0.1);
+}
+
+TEST(DiskEncoder, the_index_is_not_believed_where_the_disk_turns_round) {
+  EncoderBench bench(coarse());
+  bench.run(3.0);
+  const std::uint64_t indices = bench.session().counters().indices;
+  // To and fro over the index, by less than four counts to either side.
+  const double wanted_rad = kTurn_rad;
+  bench.run(wanted_rad - bench.motion.angle_at(bench.now_ns) - 2.0 * kTurn_rad / 400.0);
+  for (int i = 0; i < 20; ++i) {
+    bench.motion.set_speed(bench.now_ns, i % 2 == 0 ? -1.0 : 1.0);
+    bench.run(0.03);
+  }
+  EXPECT_LE(bench.session().counters().indices, indices + 1);
+  bench.motion.set_speed(bench.now_ns, 1.0);
+  bench.run(2.0 * kTurn_rad);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+  EXPECT_LE(bench.worst_error_counts(), 1.01);
+}
+
+TEST(DiskEncoder, comes_back_after_its_chip_was_away) {
+  EncoderBench bench(coarse());
+  bench.run(3.0);
+  bench.is_plugged = false;
+  bench.run(20.0);
+  EXPECT_EQ(bench.session().state(), EncoderState::Absent);
+  EXPECT_GE(bench.count(EncoderTrouble::Disconnected), 4U);
+  EXPECT_LE(bench.count(EncoderTrouble::Disconnected), 8U);
+  EXPECT_EQ(bench.details.back(), "no such chip");
+  bench.is_plugged = true;
+  bench.run(10.0 + kTurn_rad);
+  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+  EXPECT_LE(bench.worst_error_counts(), 0.5);
+}
+
+TEST(DiskEncoder, warns_of_edges_faster_than_the_queue_allows) {
+  EncoderOptions options;
+  options.counts_per_turn = 40000;
+  EncoderBench bench(options, -0.1, 2.0);
+  bench.run(0.5);
+  EXPECT_EQ(bench.count(EncoderTrouble::EdgeRate), 1U);
+  EXPECT_NE(bench.details.back().find("edges per second"), std::string::npos);
+}
+
+TEST(EncoderSession, random_edges_do_not_break_it) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    sim::Random random(seed);
+    EncoderSession session(coarse());
+    session.on_open({1000, false, false, false}, 16);
+    drivers::HostStamp stamp_ns = 1000, last_ns = 0;
+    for (int i = 0; i < 200; ++i) {
+      drivers::EdgeBatch batch;
+      for (int edge = random.integer(0, 5); edge > 0; --edge) {
+        stamp_ns += random.integer(-1000, 100000);
+        batch.edges.push_back({stamp_ns, static_cast<EncoderLine>(random.integer(0, 2)), random.chance(0.5)});
+      }
+      batch.lost_edges = random.chance(0.02) ? 3 : 0;
+      batch.complete_ns = stamp_ns;
+      auto events = session.on_edges(batch);
+      if (session.wants_levels()) session.on_levels({stamp_ns, random.chance(0.5), random.chance(0.5), false});
+      EXPECT_FALSE(session.wants_levels());
+      for (const auto& event : events) {
+        const auto* samples = std::get_if<std::vector<drivers::AngleSample>>(&event);
+        if (samples == nullptr) continue;
+        for (const drivers::AngleSample& sample : *samples) {
+          EXPECT_GE(sample.stamp_ns, last_ns);
+          last_ns = sample.stamp_ns;
+        }
+      }
+    }
+  }
+}
+
+TEST(EncoderOptions, bad_values_are_named) {
+  const std::pair<const char*, void (*)(EncoderOptions&)> cases[] = {
+      {"chip", [](EncoderOptions& o) { o.chip = ""; }},
+      {"line_a", [](EncoderOptions& o) { o.line_a = ""; }},
+      {"another", [](EncoderOptions& o) { o.line_b = o.line_a; }},
+      {"counts_per_turn", [](EncoderOptions& o) { o.counts_per_turn = 1023; }},
+      {"index_tolerance", [](EncoderOptions& o) { o.index_tolerance = 2000; }},
+      {"harmonic", [](EncoderOptions& o) { o.harmonic_rad = 1.0; }},
+      {"event_buffer", [](EncoderOptions& o) { o.event_buffer = 1; }},
+      {"debounce", [](EncoderOptions& o) { o.debounce_us = -1; }},
+      {"max_backoff", [](EncoderOptions& o) { o.max_backoff_s = 0.1; }},
+  };
+  EXPECT_EQ(EncoderOptions().problem(), "");
+  for (const auto& [word, damage] : cases) {
+    EncoderOptions options;
+    damage(options);
+    EXPECT_NE(options.problem().find(word), std::string::npos) << word << ": " << options.problem();
+  }
+}
+
+}  // namespace
+}  // namespace stairway::test
