@@ -52,10 +52,9 @@ std::vector<MotorEvent> DiskMotor::open(nanoseconds timeout) {
   }
   auto port = opener_.open();
   if (!port) return session_.on_disconnect(now_(), port.error());
+  // What the port has to tell about its bus comes before the first frame is sent.
   port_ = std::move(*port);
-  std::vector<MotorEvent> events = session_.on_time(now_());
-  send_output(events);
-  return events;
+  return {};
 }
 
 void DiskMotor::send_output(std::vector<MotorEvent>& events) {

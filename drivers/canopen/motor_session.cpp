@@ -40,9 +40,7 @@ MotorSession::MotorSession(const MotorOptions& options)
       sdo_(node_, to_ns(options.sdo_timeout_s)),
       setup_(options),
       stopping_(options),
-      assembler_(options) {
-  told_ns_.fill(kLongAgo);
-}
+      assembler_(options) {}
 
 std::vector<MotorEvent> MotorSession::on_arrivals(std::span<const CanArrival> arrivals, HostStamp now_ns) {
   if (step_ == Step::Start && request_ == Request::None) begin_search(now_ns);
@@ -585,11 +583,14 @@ void MotorSession::send(const CanFrame& frame) {
 }
 
 void MotorSession::report(MotorTrouble trouble, std::string detail, HostStamp at_ns) {
-  const auto index = static_cast<std::size_t>(trouble);
-  ++counters_.troubles[index];
+  ++counters_.troubles[static_cast<std::size_t>(trouble)];
   const bool is_anybodys = trouble == MotorTrouble::Unexpected || trouble == MotorTrouble::Bus;
-  if (is_anybodys && at_ns < told_ns_[index] + kTellPause_ns) return;
-  told_ns_[index] = at_ns;
+  if (is_anybodys) {
+    // What is unexpected has any number of texts, what happens to the bus has a few.
+    auto& told_ns = told_ns_.try_emplace(trouble == MotorTrouble::Bus ? detail : std::string(), kLongAgo).first->second;
+    if (at_ns < told_ns + kTellPause_ns) return;
+    told_ns = at_ns;
+  }
   events_.emplace_back(MotorTroubleEvent{trouble, std::move(detail)});
 }
 

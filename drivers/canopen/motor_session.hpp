@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -181,7 +181,7 @@ class MotorSession {
   int good_feedbacks_ = 0;    // since enabled
 
   MotorCounters counters_;
-  std::array<HostStamp, kMotorTroubles> told_ns_{};
+  std::map<std::string, HostStamp> told_ns_;
   std::vector<CanFrame> output_;
   std::vector<MotorEvent> events_;
 };

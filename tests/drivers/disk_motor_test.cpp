@@ -171,6 +171,22 @@ TEST(DiskMotor, keeps_the_port_while_frames_cannot_be_placed) {
   EXPECT_EQ(motor.session().state(), MotorState::Running);
 }
 
+TEST(DiskMotor, a_bus_that_is_down_from_the_start_is_named_as_such) {
+  World world;
+  world.bus.set_link(false, 0);
+  DiskMotor motor = make_motor(world);
+  std::vector<std::string> told;
+  while (world.now_ns < 2000 * kMs) {
+    for (const MotorEvent& event : motor.poll(milliseconds(50))) {
+      if (const auto* trouble = std::get_if<MotorTroubleEvent>(&event)) told.push_back(trouble->detail);
+    }
+  }
+  EXPECT_EQ(told, std::vector<std::string>{"can0: the interface is down; `ip link set can0 up`"});
+  world.bus.set_link(true, world.now_ns);
+  run(world, motor, 2.0);
+  EXPECT_EQ(motor.session().state(), MotorState::Running);
+}
+
 TEST(DiskMotor, quick_stop_ends_in_stopped) {
   World world;
   DiskMotor motor = make_motor(world);
