@@ -27,22 +27,29 @@ constexpr std::size_t kMaxPieces = 64;  // of 255 bytes: more than one message m
 constexpr std::size_t kMaxDetail = 256;
 constexpr std::size_t kMaxOutput = 256;
 
-enum Action : std::uint8_t { Raw, Summed, Usual, Damaged, Time, Disconnect, Repeat, kActions };
+enum Action : std::uint8_t { Raw, Summed, Usual, Damaged, Time, Disconnect, Repeat, Lost, Retry, kActions };
 
-ScipOptions options() {
+ScipOptions options_of(std::uint8_t choice) {
   ScipOptions options;
   options.min_angle_rad = -0.05;  // 23 beams: two lines of data
   options.max_angle_rad = 0.05;
+  options.intensities = (choice & 1) != 0;
+  options.cluster = (choice & 2) != 0 ? 4 : 1;
+  options.skip_scan = (choice & 4) != 0 ? 2 : 0;
+  options.stamp_reference = (choice & 8) != 0 ? StampReference::Step0 : StampReference::Rear;
+  require(options.problem().empty(), "the options of the test are usable");
   return options;
 }
 
 /// A session between a fuzzer and a sensor in order, of which the fuzzer decides what is heard.
 class Bench {
  public:
-  Bench() : session_(options()) { take(session_.on_time(now_ns_)); }
+  explicit Bench(const ScipOptions& options) : session_(options) { take(session_.on_time(now_ns_)); }
 
   void bytes(std::string_view bytes) { take(session_.on_bytes(bytes, now_ns_)); }
   void disconnect() { take(session_.on_disconnect(now_ns_, "unplugged")); }
+  void lose(std::size_t bytes) { take(session_.on_lost_bytes(bytes)); }
+  void retry() { session_.retry_now(now_ns_); }
 
   void wait(HostStamp pause_ns) {
     if (pause_ns > 1000 * kMs) sensor_.is_streaming = false;
@@ -141,6 +148,10 @@ void step(Bench& bench, FuzzInput& input) {
     }
     case Time:
       return bench.wait(kPauses_ns[input.byte() % std::size(kPauses_ns)]);
+    case Lost:
+      return bench.lose(input.byte());
+    case Retry:
+      return bench.retry();
     default:
       return bench.disconnect();
   }
@@ -158,7 +169,7 @@ void append_raw(Seed& seed, std::string_view text) {
 
 void run_scip(std::span<const std::uint8_t> bytes) {
   FuzzInput input(bytes);
-  Bench bench;
+  Bench bench(options_of(input.byte()));
   while (!input.is_empty()) step(bench, input);
   bench.recover();
 }
@@ -166,24 +177,26 @@ void run_scip(std::span<const std::uint8_t> bytes) {
 std::vector<Seed> scip_seeds() {
   std::vector<Seed> seeds;
   // A sensor in order, from the start to the stream; then one that is damaged, falls silent, and is unplugged.
-  seeds.push_back(seed_of({Time, 3, Usual, 15, Usual, 15, Usual, 15, Usual, 15}));
-  seeds.push_back(seed_of({Time, 3, Usual, 15, Usual, 15, Damaged, 1, 0, 40, Usual, 3, Damaged, 16, 0, 0, Usual, 3}));
-  seeds.push_back(seed_of({Time, 3, Usual, 15, Usual, 15, Usual, 5, Time, 4, Time, 4, Usual, 9, Disconnect, Time, 4}));
+  seeds.push_back(seed_of({0, Time, 3, Usual, 15, Usual, 15, Usual, 15, Usual, 15}));
+  seeds.push_back(
+      seed_of({0, Time, 3, Usual, 15, Usual, 15, Damaged, 1, 0, 40, Usual, 3, Damaged, 16, 0, 0, Usual, 3}));
+  seeds.push_back(
+      seed_of({0, Time, 3, Usual, 15, Usual, 15, Usual, 5, Time, 4, Time, 4, Usual, 9, Disconnect, Time, 4}));
   for (const std::string& reply : {samples::kVersion, samples::kParameters, samples::kState, samples::kMd, samples::kMe,
                                    std::string("TM1\n00P\n00?Xg\n\n"), std::string("CR00\n04T\n\n"),
                                    std::string("XX\n0Ee\n\n"), std::string("BM\n02R\n\n")}) {
-    Seed seed = seed_of({Time, 3, Usual, 9});
+    Seed seed = seed_of({0, Time, 3, Usual, 9});
     for (std::size_t at = 0; at < reply.size(); at += 200) append_raw(seed, std::string_view(reply).substr(at, 200));
     seeds.push_back(seed);
   }
-  Seed lines = seed_of({Time, 3, Usual, 3, Summed});
+  Seed lines = seed_of({0, Time, 3, Usual, 3, Summed});
   append(lines, "00");
   lines.insert(lines.end(), {2, 8});
   append(lines, "DMIN:23;");
   lines.push_back(11);
   append(lines, "DMAX:60000;");
   seeds.push_back(lines);
-  Seed endless = seed_of({Time, 3, Usual, 15, Usual, 15, Repeat, 64, 3});
+  Seed endless = seed_of({0, Time, 3, Usual, 15, Usual, 15, Repeat, 64, 3});
   append(endless, "MD0");
   seeds.push_back(endless);
   return seeds;
