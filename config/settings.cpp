@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/settings.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace stairway::config {
@@ -14,16 +13,15 @@ std::string InputOptions::problem() const {
 
 std::string SimulationOptions::problem() const {
   if (scene.empty()) return "scene must name a scene or a scene file";
-  if (!(std::abs(disk_period_s) >= 1.0)) return "disk_period_s must be at least 1 or at most -1";
   return {};
 }
 
 std::string Settings::problem() const {
   const std::pair<const char*, std::string> problems[] = {
-      {"lcm", lcm.problem()},           {"lidar", lidar.problem()},       {"lidar", usb.problem()},
-      {"motor", motor.problem()},       {"encoder", encoder.problem()},   {"mount", mount.problem()},
-      {"sweep", sweep.problem()},       {"detector", detector.problem()}, {"input", input.problem()},
-      {"simulate", simulate.problem()},
+      {"lcm", lcm.problem()},     {"lidar", lidar.problem()},       {"lidar", usb.problem()},
+      {"disk", disk.problem()},   {"motor", motor.problem()},       {"encoder", encoder.problem()},
+      {"mount", mount.problem()}, {"sweep", sweep.problem()},       {"detector", detector.problem()},
+      {"input", input.problem()}, {"simulate", simulate.problem()},
   };
   for (const auto& [section, problem] : problems) {
     if (!problem.empty()) return std::string(section) + ": " + problem;

@@ -9,6 +9,7 @@
 
 #include "detector/stairway_detector.hpp"
 #include "drivers/canopen/motor_options.hpp"
+#include "drivers/disk/disk_options.hpp"
 #include "drivers/encoder/encoder_options.hpp"
 #include "drivers/scip/scip_options.hpp"
 #include "drivers/usb/usb_options.hpp"
@@ -40,7 +41,6 @@ struct SimulationOptions {
   std::string scene = "straight-flight";  ///< name of a shipped scene or path of a scene file
   double speed = 1.0;                     ///< simulated seconds per second; 0 is as fast as possible
   int seed = 1;                           ///< of the noise
-  double disk_period_s = 35.0;            ///< one turn of the disk [s]; negative turns clockwise
 
   std::string problem() const;
 };
@@ -59,6 +59,7 @@ struct Settings {
   ipc::BusOptions lcm;
   drivers::ScipOptions lidar;
   drivers::UsbOptions usb;  ///< keys in the section of the lidar
+  drivers::DiskOptions disk;
   drivers::MotorOptions motor;
   drivers::EncoderOptions encoder;
   scan::MountOptions mount;

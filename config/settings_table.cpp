@@ -46,6 +46,26 @@ void add_lidar_settings(std::vector<Entry>& table, drivers::ScipOptions& lidar, 
       .real("max_backoff", lidar.max_backoff_s, kSecond, {0.01, 600}, "longest such pause");
 }
 
+void add_disk_settings(std::vector<Entry>& table, drivers::DiskOptions& disk) {
+  Section(table, "disk")
+      .real("period", disk.period_s, kSecond, {-600, 600}, "one turn; negative is clockwise, seen from above")
+      .choice("angle_source", disk.angle_source, {"encoder", "drive"},
+              "whose angles place the beams; drive is for a robot without an encoder")
+      .real("drive_zero", disk.drive_zero_rad, kDegree, {-180, 180},
+            "the drive's angle where the disk's is 0; with the drive as angle source the cloud is turned by its error")
+      .real("idle_after", disk.idle_after_s, kSecond, {0, 86400},
+            "how long the disk goes on turning without scans or encoder")
+      .real("check_speed", disk.check_speed_rad_s, kDegreePerSecond, {0.1, 500}, "of the self check before it turns")
+      .real("check_window", disk.check_window_s, kSecond, {0.1, 60}, "over which speeds are compared")
+      .real("settle", disk.settle_s, kSecond, {0, 60}, "a speed is left alone for so long after its ramp")
+      .real("check_tolerance", disk.check_tolerance, kPlain, {0.01, 0.9},
+            "share by which command, drive and encoder may differ in the self check")
+      .real("slip_tolerance", disk.slip_tolerance, kPlain, {0.01, 0.9}, "likewise while it turns")
+      .real("standing_speed", disk.standing_speed_rad_s, kDegreePerSecond, {0.01, 50},
+            "a disk that should stand moves slower than this")
+      .real("retry", disk.retry_s, kSecond, {1, 3600}, "pause between a failed self check and the next one");
+}
+
 void add_motor_settings(std::vector<Entry>& table, drivers::MotorOptions& motor) {
   Section(table, "motor")
       .text("interface", motor.interface, "CAN interface, as `ip link` shows it")
@@ -154,8 +174,7 @@ void add_simulation_settings(std::vector<Entry>& table, SimulationOptions& simul
   Section(table, "simulate")
       .text("scene", simulate.scene, "name of a shipped scene or path of a scene file")
       .real("speed", simulate.speed, kPlain, {0, 1000}, "simulated seconds per second; 0 is as fast as possible")
-      .whole("seed", simulate.seed, 0, 2147483647, "of the noise")
-      .real("disk_period", simulate.disk_period_s, kSecond, {-600, 600}, "one turn of the disk; negative is clockwise");
+      .whole("seed", simulate.seed, 0, 2147483647, "of the noise");
 }
 
 template <class... Visitors>
@@ -216,6 +235,7 @@ std::vector<Entry> settings_table(Settings& settings) {
       .text("url", settings.lcm.url, "LCM provider; ttl=0 keeps messages on this host")
       .text("channel_prefix", settings.lcm.channel_prefix, "in front of every channel name");
   add_lidar_settings(table, settings.lidar, settings.usb);
+  add_disk_settings(table, settings.disk);
   add_motor_settings(table, settings.motor);
   add_encoder_settings(table, settings.encoder);
   add_mount_settings(table, settings.mount);

@@ -84,7 +84,7 @@ TEST(DiskSupervisor, turns_after_a_check_as_soon_as_all_devices_are_ready) {
     EXPECT_EQ(rig.supervisor.wanted_speed_rad_s(), 0.0);
     rig.make_ready();
     rig.run(1.0);
-    EXPECT_DOUBLE_EQ(rig.supervisor.wanted_speed_rad_s(), std::copysign(0.1, period_s));
+    EXPECT_DOUBLE_EQ(rig.supervisor.wanted_speed_rad_s(), std::copysign(options.check_speed_rad_s, period_s));
     rig.run(3.0);
     EXPECT_DOUBLE_EQ(rig.supervisor.wanted_speed_rad_s(), std::copysign(kFull_rad_s, period_s));
     rig.run(60.0);

@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 config::Settings fast(double disk_period_s = 6.0) {
   config::Settings settings;
   settings.simulate.speed = 0.0;
-  settings.simulate.disk_period_s = disk_period_s;
+  settings.disk.period_s = disk_period_s;
   return settings;
 }
 

@@ -27,7 +27,7 @@ constexpr auto kPatience = 200s;
 
 std::vector<std::string> quick(const std::string& scene, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"--simulate=" + scene, "--set", "simulate.speed=0", "--set",
-                                     "simulate.disk_period_s=6"};
+                                     "disk.period_s=6"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -94,7 +94,7 @@ TEST_F(Stairwayd, tells_what_it_measures_and_how_it_does) {
   EXPECT_GE(health.sweep_progress, 0.0);
   EXPECT_LE(health.sweep_progress, 1.0);
 
-  EXPECT_NE(listener.settings.front().toml.find("disk_period_s = 6"), std::string::npos);
+  EXPECT_NE(listener.settings.front().toml.find("\nperiod_s = 6"), std::string::npos);
   EXPECT_FALSE(listener.settings.front().version.empty());
 }
 

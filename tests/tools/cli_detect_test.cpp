@@ -20,7 +20,7 @@ using nlohmann::json;
 using test::run_stairway;
 using test::TemporaryFolder;
 
-const std::vector<std::string> kCoarse{"--set", "simulate.disk_period_s=4"};
+const std::vector<std::string> kCoarse{"--set", "disk.period_s=4"};
 
 std::vector<json> json_lines(const std::string& text) {
   std::vector<json> objects;

@@ -20,7 +20,7 @@ Request smallest_request() {
   Request request;
   request.seed = 1000;
   request.share = 1e-6;
-  request.settings.simulate.disk_period_s = 3.0;
+  request.settings.disk.period_s = 3.0;
   return request;
 }
 

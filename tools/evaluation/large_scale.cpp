@@ -53,7 +53,7 @@ Measured measure(const Size& size, const Request& request) {
   spec.seed = request.seed;
   const sim::Building building = sim::build_building(spec);
   const std::span stands = std::span(building.stands).first(std::min(building.stands.size(), size.max_stands));
-  const sim::SweepOptions sweep{.disk_period_s = kPeriodShare * request.settings.simulate.disk_period_s};
+  const sim::SweepOptions sweep{.disk_period_s = kPeriodShare * request.settings.disk.period_s};
   const scan::PointCloud cloud =
       sim::simulate_merged(building.scene, stands, request.settings.mount, {}, sweep, request.seed);
   Measured measured{.spec = spec, .stands = stands.size(), .points = cloud.points.size()};
@@ -130,7 +130,7 @@ Result run_large_scale(const Request& request) {
                                   &Measured::growth_MB)},
           .notes = {"Every building is one cloud, merged without error from sweeps in its corridors and at the foot of "
                     "every flight; such a cloud has no single place of the sensor. Sweeps take 15 % of "
-                    "simulate.disk_period_s.",
+                    "disk.period_s.",
                     "Time is processor time of the one thread that detects. Peak growth is what the process holds "
                     "beyond the cloud itself. In the charts the dashed line is no measurement: it grows in proportion "
                     "to the points from the first one.",

@@ -75,7 +75,7 @@ SeriesSweep simulate_run(const SeriesRun& run, const Request& request, int threa
 }
 
 scan::PointCloud sweep_in(const sim::Scene& scene, const Request& request, std::uint64_t stream, int threads) {
-  const sim::SweepOptions options{.disk_period_s = request.settings.simulate.disk_period_s, .threads = threads};
+  const sim::SweepOptions options{.disk_period_s = request.settings.disk.period_s, .threads = threads};
   const std::uint64_t noise = sim::Random{~request.seed, stream}.next();
   return sim::simulate_sweep(scene, scene.mount.value_or(request.settings.mount), {}, options, noise);
 }

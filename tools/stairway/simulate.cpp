@@ -71,7 +71,7 @@ scan::PointCloud sweep_in(const sim::Scene& scene, const Arguments& arguments, c
   return simulate_sweep(
       scene, scene.mount.value_or(settings.mount),
       {.robot_roll_rad = radians(arguments.roll_deg), .robot_pitch_rad = radians(arguments.pitch_deg)},
-      {.disk_period_s = arguments.disk_period_s.value_or(settings.simulate.disk_period_s)},
+      {.disk_period_s = arguments.disk_period_s.value_or(settings.disk.period_s)},
       static_cast<std::uint64_t>(seed));
 }
 
@@ -126,7 +126,7 @@ void declare_simulation(CLI::App& command, Arguments& arguments) {
       ->check(CLI::NonNegativeNumber);
   command
       .add_option("--disk-period", arguments.disk_period_s,
-                  "one turn of the disk [s], negative is clockwise; the setting simulate.disk_period_s if left out")
+                  "one turn of the disk [s], negative is clockwise; the setting disk.period_s if left out")
       ->check([](const std::string& text) {
         double period_s = 0.0;
         const bool is_usable =

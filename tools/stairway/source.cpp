@@ -22,7 +22,7 @@ tl::expected<Source, SourceError> simulate(const std::string& name, const config
   StageTimer timer;
   auto scene = open_scene(name);
   if (!scene) return tl::unexpected(scene.error());
-  const sim::SweepOptions sweep{.disk_period_s = settings.simulate.disk_period_s};
+  const sim::SweepOptions sweep{.disk_period_s = settings.disk.period_s};
   Source source{.name = name, .truth = std::move(scene->truths)};
   source.cloud = simulate_sweep(*scene, scene->mount.value_or(settings.mount), {}, sweep,
                                 static_cast<std::uint64_t>(settings.simulate.seed));

@@ -36,7 +36,7 @@ bool is_streaming(const drivers::ScipEvent& event) {
 SimulatedSource::SimulatedSource(const config::Settings& settings, std::int64_t start_utime_us)
     : start_utime_us_(start_utime_us),
       speed_(settings.simulate.speed),
-      disk_speed_rad_s_(2.0 * std::numbers::pi / settings.simulate.disk_period_s),
+      disk_speed_rad_s_(2.0 * std::numbers::pi / settings.disk.period_s),
       robot_(sim::build_scene(sim::load_scene(settings.simulate.scene)), robot_options(settings)),
       encoder_(robot_.open_encoder()) {
   scanner_.emplace(
