@@ -63,7 +63,8 @@ CanLink look_at(int socket, const std::string& interface, unsigned index) {
 }
 
 void set_options(int socket, const SocketCanOptions& options) {
-  const std::vector<can_filter> filters = raw_filters(options.node_id, options.host_node_id);
+  std::vector<can_filter> filters{{0, CAN_EFF_FLAG | CAN_RTR_FLAG}};
+  if (!options.hears_everybody) filters = raw_filters(options.node_id, options.host_node_id);
   static_cast<void>(setsockopt(socket, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
                                static_cast<socklen_t>(filters.size() * sizeof(can_filter))));
   set_option(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, raw_error_classes());

@@ -57,6 +57,7 @@ struct SocketCanOptions {
   std::string interface = "can0";
   int node_id = 1;  ///< only what concerns this node is received
   int host_node_id = 127;
+  bool hears_everybody = false;  ///< other nodes' frames as well
 };
 
 /// A port on that interface, or why there is none and what to do.

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "drivers/can/socket_can_port.hpp"
 #include "drivers/host_clock.hpp"
 #include "drivers/usb/usb_scanner_opener.hpp"
 #include "tools/doctor/examination.hpp"
@@ -44,12 +45,19 @@ doctor::Check judge_settings(const std::vector<std::string>& files,
 doctor::Robot robot_of(const config::Settings& settings) {
   return {.scanner = {.serial = settings.lidar.serial, .port = settings.usb.port},
           .lidar = settings.lidar,
+          .can_interface = settings.motor.interface,
+          .drive_node = settings.motor.node_id,
           .lcm = settings.lcm};
 }
 
 doctor::Ports ports_of(const config::Settings& settings) {
+  const drivers::SocketCanOptions can{.interface = settings.motor.interface,
+                                      .node_id = settings.motor.node_id,
+                                      .host_node_id = settings.motor.host_node_id,
+                                      .hears_everybody = true};
   doctor::Ports ports;
   ports.scanner = drivers::usb_scanner_opener(settings.usb, settings.lidar.serial);
+  ports.can = [can] { return drivers::open_socket_can(can); };
   ports.now = drivers::monotonic_now_ns;
   return ports;
 }
