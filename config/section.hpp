@@ -18,6 +18,7 @@ inline constexpr Unit kSecond{"s", 1.0};
 inline constexpr Unit kHertz{"hz", 1.0};
 inline constexpr Unit kDegreePerSecond{"deg_s", std::numbers::pi / 180.0};
 inline constexpr Unit kDegreePerSecond2{"deg_s2", std::numbers::pi / 180.0};
+inline constexpr Unit kMillisecondOfSeconds{"ms", 1e-3};
 inline constexpr Unit kMillisecondOfNanoseconds{"ms", 1e6};
 
 struct Range {

@@ -18,10 +18,10 @@ std::string SimulationOptions::problem() const {
 
 std::string Settings::problem() const {
   const std::pair<const char*, std::string> problems[] = {
-      {"lcm", lcm.problem()},     {"lidar", lidar.problem()},       {"lidar", usb.problem()},
-      {"disk", disk.problem()},   {"motor", motor.problem()},       {"encoder", encoder.problem()},
-      {"mount", mount.problem()}, {"sweep", sweep.problem()},       {"detector", detector.problem()},
-      {"input", input.problem()}, {"simulate", simulate.problem()},
+      {"lcm", lcm.problem()},           {"lidar", lidar.problem()}, {"lidar", usb.problem()},
+      {"lidar", sync_input.problem()},  {"disk", disk.problem()},   {"motor", motor.problem()},
+      {"encoder", encoder.problem()},   {"mount", mount.problem()}, {"sweep", sweep.problem()},
+      {"detector", detector.problem()}, {"input", input.problem()}, {"simulate", simulate.problem()},
   };
   for (const auto& [section, problem] : problems) {
     if (!problem.empty()) return std::string(section) + ": " + problem;

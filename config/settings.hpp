@@ -12,6 +12,7 @@
 #include "drivers/disk/disk_options.hpp"
 #include "drivers/encoder/encoder_options.hpp"
 #include "drivers/scip/scip_options.hpp"
+#include "drivers/scip/sync_input.hpp"
 #include "drivers/usb/usb_options.hpp"
 #include "ipc/channels.hpp"
 #include "scan_assembly/frames.hpp"
@@ -58,7 +59,8 @@ struct Settings {
   LogOptions log;
   ipc::BusOptions lcm;
   drivers::ScipOptions lidar;
-  drivers::UsbOptions usb;  ///< keys in the section of the lidar
+  drivers::UsbOptions usb;               ///< keys in the section of the lidar
+  drivers::SyncInputOptions sync_input;  ///< likewise
   drivers::DiskOptions disk;
   drivers::MotorOptions motor;
   drivers::EncoderOptions encoder;

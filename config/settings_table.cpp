@@ -11,7 +11,8 @@
 namespace stairway::config {
 namespace {
 
-void add_lidar_settings(std::vector<Entry>& table, drivers::ScipOptions& lidar, drivers::UsbOptions& usb) {
+void add_lidar_settings(std::vector<Entry>& table, drivers::ScipOptions& lidar, drivers::UsbOptions& usb,
+                        drivers::SyncInputOptions& sync) {
   Section(table, "lidar")
       .text("usb_serial", lidar.serial, "serial number of the wanted unit, as on its label; empty is any")
       .text("usb_port", usb.port, "where it is plugged in, e.g. 1-2.3; empty is anywhere")
@@ -25,6 +26,15 @@ void add_lidar_settings(std::vector<Entry>& table, drivers::ScipOptions& lidar, 
               "where the beam points at the stamped instant")
       .real("min_latency", lidar.clock.minimum_latency_ns, kMillisecondOfNanoseconds, {0, 1000},
             "from the stamped instant to the first byte at the host")
+      .choice("clock_source", lidar.clock_source, {"passive", "tm"},
+              "tm: measure min_latency by the scanner's clock when it is opened, where its answers are fast enough")
+      .whole("time_readings", lidar.time_readings, 1, 100, "round trips for that; the shortest counts")
+      .real("max_round_trip", lidar.max_round_trip_s, kMillisecondOfSeconds, {0.1, 100},
+            "a longer shortest one is not believed")
+      .text("sync_chip", sync.chip, "GPIO chip that the scanner's sync pulses are wired to; empty without")
+      .text("sync_line", sync.line, "line of that chip, by number or name; empty without")
+      .real("sync_offset", lidar.sync_offset_ns, kMillisecondOfNanoseconds, {-25, 25},
+            "from the rear-pointing beam to the sync pulse; not documented, the health report tells its error")
       .real("clock_window", lidar.clock.window_s, kSecond, {0.5, 60}, "scans that share one fit of the scanner's clock")
       .real("max_clock_gap", lidar.clock.max_gap_s, kSecond, {0.1, 10}, "a longer gap starts the fit anew")
       .real("max_clock_step", lidar.clock.max_step_ns, kMillisecondOfNanoseconds, {0.1, 1000},
@@ -234,7 +244,7 @@ std::vector<Entry> settings_table(Settings& settings) {
   Section(table, "lcm")
       .text("url", settings.lcm.url, "LCM provider; ttl=0 keeps messages on this host")
       .text("channel_prefix", settings.lcm.channel_prefix, "in front of every channel name");
-  add_lidar_settings(table, settings.lidar, settings.usb);
+  add_lidar_settings(table, settings.lidar, settings.usb, settings.sync_input);
   add_disk_settings(table, settings.disk);
   add_motor_settings(table, settings.motor);
   add_encoder_settings(table, settings.encoder);

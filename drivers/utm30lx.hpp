@@ -30,6 +30,9 @@ class Utm30lx {
   /// Waits at most `timeout` for something to happen and gives what happened, in order; often nothing.
   std::vector<ScipEvent> poll(std::chrono::nanoseconds timeout);
 
+  /// As ScipSession::on_sync_pulse.
+  void on_sync_pulse(HostStamp stamp_ns) { session_.on_sync_pulse(stamp_ns); }
+
   const ScipSession& session() const { return session_; }
   bool is_port_open() const { return port_ != nullptr; }
 

@@ -14,6 +14,7 @@ constexpr double kMaxPeriodError = 0.02;  // of the nominal period
 constexpr double kMaxStampError = 0.3;    // of a period; beyond it the count of turns is a guess
 constexpr std::size_t kAnchorScans = 40;  // by then the fit is better than the stamp's rounding
 constexpr double kMinDriftSpan_ms = 10e3;
+constexpr double kMaxLatency_ns = 100e6;
 
 bool is_within(double value, double low, double high) { return value >= low && value <= high; }
 
@@ -36,7 +37,7 @@ double ClockMapping::Line::delay_ns(const Arrival& arrival) const {
 }
 
 ClockMapping::ClockMapping(const ClockOptions& options, double nominal_period_ns)
-    : options_(options), nominal_period_ns_(nominal_period_ns) {
+    : options_(options), nominal_period_ns_(nominal_period_ns), latency_ns_(options.minimum_latency_ns) {
   line_.period_ns = nominal_period_ns;
 }
 
@@ -51,7 +52,8 @@ ScanTime ClockMapping::add(std::int64_t device_stamp_ms, HostStamp arrival_ns, b
   if (!anchor_ && window_.size() >= kAnchorScans) {
     anchor_ = Arrival{arrival.turn, device_stamp_ms, line_.at(arrival.turn), true};
   }
-  return {static_cast<std::uint64_t>(arrival.turn), line_.at(arrival.turn) - std::llround(options_.minimum_latency_ns),
+  if (reading_ && window_.size() >= kAnchorScans) measure_latency();
+  return {static_cast<std::uint64_t>(arrival.turn), line_.at(arrival.turn) - std::llround(latency_ns_),
           line_.period_ns};
 }
 
@@ -140,8 +142,38 @@ ClockMapping::Line ClockMapping::line_below() const {
   return {origin.turn + std::llround(lowest->turns), origin.arrival_ns + std::llround(lowest->arrival_ns), period_ns};
 }
 
+// Both clocks' readings are rounded down to the millisecond, so that the rounding cancels in the mean.
+void ClockMapping::measure_latency() {
+  double sum_ns = 0.0;
+  for (const Arrival& arrival : window_) {
+    const double elapsed_ns = static_cast<double>(arrival.device_stamp_ms - reading_->device_stamp_ms) * kNsPerMs;
+    sum_ns += static_cast<double>(line_.at(arrival.turn) - reading_->host_ns) - elapsed_ns;
+  }
+  const double latency_ns = sum_ns / static_cast<double>(window_.size());
+  if (is_within(latency_ns, 0.0, kMaxLatency_ns)) {
+    latency_ns_ = latency_ns;
+    round_trip_ns_ = static_cast<double>(reading_->round_trip_ns);
+  }
+  reading_.reset();
+}
+
+const char* to_string(ClockSource source) {
+  switch (source) {
+    case ClockSource::Passive:
+      return "passive";
+    case ClockSource::TimeAdjustment:
+      return "tm";
+    case ClockSource::SyncPulse:
+      return "sync";
+  }
+  return "unknown";
+}
+
 ClockQuality ClockMapping::quality() const {
   ClockQuality quality;
+  quality.source = round_trip_ns_ > 0.0 ? ClockSource::TimeAdjustment : ClockSource::Passive;
+  quality.latency_ms = latency_ns_ / kNsPerMs;
+  quality.round_trip_ms = round_trip_ns_ / kNsPerMs;
   quality.period_ms = line_.period_ns / kNsPerMs;
   quality.resets = resets_;
   quality.scans_in_fit = window_.size();

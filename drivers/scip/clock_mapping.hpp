@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/scip/time_reading.hpp"
 #include "drivers/types.hpp"
 
 namespace stairway::drivers {
@@ -32,8 +33,20 @@ struct ScanTime {
   double period_ns = 0.0;      ///< time from one scan to the next, in host time [ns]
 };
 
+/// What tells where the arrivals stand against the sensor's clock.
+enum class ClockSource {
+  Passive,         ///< a latency that was measured elsewhere (`minimum_latency_ns`)
+  TimeAdjustment,  ///< TM1 round trips when the sensor was opened
+  SyncPulse,       ///< a pulse for each turn of the mirror
+};
+const char* to_string(ClockSource source);
+
 /// How good the mapping is, for health reports.
 struct ClockQuality {
+  ClockSource source = ClockSource::Passive;
+  double latency_ms = 0.0;         ///< from the stamped instant to the first byte at the host, as it is assumed [ms]
+  double round_trip_ms = 0.0;      ///< of the TM1 that was believed; 0 without [ms]
+  double sync_residual_ms = 0.0;   ///< pulses behind the arrivals' opinion of them; 0 without [ms]
   double period_ms = 0.0;          ///< measured time from scan to scan [ms]
   double mean_delay_ms = 0.0;      ///< mean lateness of the arrivals behind the fit [ms]
   double stamp_residual_ms = 0.0;  ///< RMS of the device stamps about the fit; 0.29 is pure rounding [ms]
@@ -62,6 +75,13 @@ class ClockMapping {
   /// @param is_exact         false when the arrival may be another scan's: it then places the scan only for want of
   ///                         better ones.
   ScanTime add(std::int64_t device_stamp_ms, HostStamp arrival_ns, bool is_exact);
+
+  /// Measures the latency by what the sensor's clock said at an instant of the host, as soon as enough scans came. One
+  /// that is absurd (below 0 or above 100 ms) is left out.
+  void use(const ClockReading& reading) { reading_ = reading; }
+
+  /// From the stamped instant to the first byte at the host, as it is assumed [ns].
+  double latency_ns() const { return latency_ns_; }
 
   /// Starts the fit anew; the sequence goes on, advanced by the time that passes until the next scan.
   void reset();
@@ -98,6 +118,7 @@ class ClockMapping {
   void drop_before(std::int64_t turn);
   void build_hull();
   Line line_below() const;
+  void measure_latency();
   double stamp_residual_ms() const;
 
   ClockOptions options_;
@@ -108,6 +129,9 @@ class ClockMapping {
   std::optional<Arrival> last_;
   std::optional<Arrival> anchor_;  // its arrival is the fitted one
   Line line_;
+  std::optional<ClockReading> reading_;
+  double latency_ns_;
+  double round_trip_ns_ = 0.0;  // of the reading that gave the latency
   HostStamp last_on_time_ns_ = 0;
   std::uint64_t resets_ = 0;
 };

@@ -46,6 +46,12 @@ const char* to_string(ScipTrouble trouble) {
       return "another unit";
     case ScipTrouble::OldFirmware:
       return "old firmware";
+    case ScipTrouble::TimeUnknown:
+      return "sensor clock unknown";
+    case ScipTrouble::FutureStamp:
+      return "stamp in the future";
+    case ScipTrouble::SyncPulse:
+      return "sync pulses misplaced";
   }
   return "unknown";
 }

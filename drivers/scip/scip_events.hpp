@@ -36,8 +36,11 @@ enum class ScipTrouble : std::uint8_t {
   LostBytes,      ///< bytes were dropped on the way, because nobody read in time
   WrongUnit,      ///< a sensor with another serial number than the wanted one
   OldFirmware,    ///< a firmware with known faults
+  TimeUnknown,    ///< the sensor's clock could not be read, or only too slowly
+  FutureStamp,    ///< a scan arrived before it ended: its time stamps are wrong
+  SyncPulse,      ///< sync pulses come, but not where the settings expect them
 };
-inline constexpr std::size_t kScipTroubles = 14;
+inline constexpr std::size_t kScipTroubles = 17;
 const char* to_string(ScipTrouble trouble);
 
 /// Monotonic counts since the session began.

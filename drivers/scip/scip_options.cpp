@@ -36,6 +36,9 @@ std::string ScipOptions::problem() const {
   const Range ranges[] = {
       {"cluster", static_cast<double>(cluster), 1.0, 99.0},
       {"skip_scan", static_cast<double>(skip_scan), 0.0, 9.0},
+      {"time_readings", static_cast<double>(time_readings), 1.0, 100.0},
+      {"max_round_trip_s", max_round_trip_s, 1e-4, 0.1},
+      {"sync_offset_ns", sync_offset_ns, -25e6, 25e6},
       {"drain_silence_s", drain_silence_s, 0.03, 2.0},
       {"max_drain_s", max_drain_s, drain_silence_s, 10.0},
       {"command_timeout_s", command_timeout_s, 0.14, 10.0},

@@ -17,6 +17,13 @@ enum class StampReference {
   Step0,  ///< the beam points along step 0
 };
 
+/// How the latency from a scan's stamp to its arrival is known.
+enum class TimeSource {
+  Passive,         ///< it is a setting
+  TimeAdjustment,  ///< it is measured when the sensor is opened; units that answer on the grid of their mirror turns,
+                   ///< as one with firmware P.1.05 did, cannot tell, and the setting stays in force
+};
+
 /// How a UTM-30LX is opened, watched and timed. Intensities double the sensor's work: at full rate and more than 95
 /// degrees for each step of a cluster they come late or broken, and some firmware then needs its power switched off and
 /// on. `problem` refuses them there unless they are forced.
@@ -31,6 +38,12 @@ struct ScipOptions {
   bool force_intensities = false;             ///< even where they may crash the sensor
   StampReference stamp_reference = StampReference::Rear;
   ClockOptions clock;
+  TimeSource clock_source = TimeSource::Passive;
+  int time_readings = 10;          ///< TM1 round trips at each opening, 1..100; the shortest counts
+  double max_round_trip_s = 4e-3;  ///< a longest one that is believed [s], 0.0001..0.1; else the clock stays passive
+  double sync_offset_ns = 0.0;     ///< from the rear-pointing beam to the sync pulse, where one is wired [ns],
+                                   ///< -25e6..25e6. Not documented; ClockQuality tells by how much it is wrong. A pulse
+                                   ///< that comes after the scan's first byte belongs to the next turn: negative
 
   double drain_silence_s = 0.15;   ///< silence that ends a drain [s], 0.03..2
   double max_drain_s = 0.4;        ///< longest drain: a sensor that streams is never silent [s], up to 10

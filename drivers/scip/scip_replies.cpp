@@ -191,6 +191,13 @@ tl::expected<SensorState, ScipError> parse_state(std::string_view data) {
   return state;
 }
 
+tl::expected<std::uint32_t, ScipError> parse_time(std::string_view data) {
+  const auto text = checked_body(take_line(data));
+  if (!text) return tl::unexpected(text.error());
+  if (text->size() != kStampLength || !data.empty()) return tl::unexpected(ScipError::BadForm);
+  return decode_number(*text);
+}
+
 tl::expected<void, ScipError> decode_scan(std::string_view data, const ScanRequest& request, RawScan& scan) {
   scan.ranges_mm.clear();
   scan.intensities.clear();

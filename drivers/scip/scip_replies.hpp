@@ -63,6 +63,9 @@ tl::expected<VersionInfo, ScipError> parse_version(std::string_view data);
 tl::expected<SensorParameters, ScipError> parse_parameters(std::string_view data);
 tl::expected<SensorState, ScipError> parse_state(std::string_view data);
 
+/// The 24-bit counter in the data line of a reply to TM1 [ms].
+tl::expected<std::uint32_t, ScipError> parse_time(std::string_view data);
+
 /// One scan as the sensor sent it: millimetres, error codes among them.
 struct RawScan {
   std::uint32_t stamp_ms = 0;              ///< 24-bit counter [ms]

@@ -17,6 +17,7 @@ namespace {
 constexpr int kProvenStream = 40;    // scans after which earlier failures are forgiven
 constexpr int kRepeatsToReport = 2;  // after the first: one repetition also comes from rounding
 constexpr std::size_t kMaxQuote = 32;
+constexpr double kMaxFuture_ns = 1e6;
 // One alone is a lost line. Time for the sensor to follow the command passes before the next attempt.
 constexpr int kWrongLengthsToAskAgain = 4;
 constexpr int kWrongLengthsToRestart = 12;
@@ -32,7 +33,9 @@ bool is_unknown_command(std::string_view status) { return status_kind({}, status
 }  // namespace
 
 ScipSession::ScipSession(const ScipOptions& options)
-    : options_(options), clock_(options.clock, scan_period_ns(SensorParameters{}, options.skip_scan)) {}
+    : options_(options),
+      clock_(options.clock, scan_period_ns(SensorParameters{}, options.skip_scan)),
+      pulses_(options.sync_offset_ns) {}
 
 std::vector<ScipEvent> ScipSession::on_bytes(std::string_view bytes, HostStamp arrival_ns) {
   if (step_ == Step::Start) enter(Step::Drain, arrival_ns);
@@ -87,7 +90,10 @@ void ScipSession::enter(Step step, HostStamp now_ns) {
   if (is_first || state() != old_state) events_.emplace_back(ScipStateEvent{state()});
   is_pausing_ = false;
   attempts_ = 0;
-  if (step == Step::Drain) is_intensity_refused_ = false;
+  if (step == Step::Drain) {
+    is_intensity_refused_ = false;
+    readings_.clear();
+  }
   if (step == Step::Drain || step == Step::DrainReset) {
     framer_.clear();
     drain_end_ns_ = now_ns + to_ns(options_.max_drain_s);
@@ -100,8 +106,10 @@ void ScipSession::enter(Step step, HostStamp now_ns) {
 }
 
 void ScipSession::advance(HostStamp now_ns) {
-  const bool is_short_cut = is_reattaching_ && step_ == Step::Quit;
-  enter(is_short_cut ? Step::StartStream : static_cast<Step>(static_cast<int>(step_) + 1), now_ns);
+  const bool has_time_mode = options_.clock_source == TimeSource::TimeAdjustment;
+  if (is_reattaching_ && step_ == Step::Quit) return enter(Step::StartStream, now_ns);
+  if (step_ == Step::AskState && !has_time_mode) return enter(Step::LaserOn, now_ns);
+  enter(static_cast<Step>(static_cast<int>(step_) + 1), now_ns);
 }
 
 std::string ScipSession::command_for(Step step) const {
@@ -119,6 +127,12 @@ std::string ScipSession::command_for(Step step) const {
       return "PP";
     case Step::AskState:
       return "II";
+    case Step::EnterTimeMode:
+      return "TM0";
+    case Step::ReadTime:
+      return "TM1";
+    case Step::EndTimeMode:
+      return "TM2";
     case Step::LaserOn:
       return "BM";
     case Step::StartStream:
@@ -133,15 +147,18 @@ void ScipSession::send(HostStamp now_ns) {
   is_pausing_ = false;
   // An empty command ends whatever stands half-read at the sensor.
   if (step_ == Step::Quit) output_.push_back('\n');
+  if (step_ == Step::ReadTime) readings_.ask(now_ns);
   output_.append(command_).push_back('\n');
   deadline_ns_ = now_ns + to_ns(options_.command_timeout_s);
 }
 
 void ScipSession::send_again(HostStamp now_ns) {
-  const int limit = step_ == Step::LaserOn ? options_.laser_attempts : options_.command_attempts;
-  if (attempts_ < limit) {
+  const bool is_slow_to_come = step_ == Step::LaserOn || step_ == Step::EnterTimeMode;
+  if (attempts_ < (is_slow_to_come ? options_.laser_attempts : options_.command_attempts)) {
     send(now_ns);
-  } else if (step_ == Step::LeaveTimeMode || step_ == Step::Reset) {
+  } else if (step_ == Step::EnterTimeMode || step_ == Step::ReadTime) {
+    give_up_time(now_ns);
+  } else if (step_ == Step::LeaveTimeMode || step_ == Step::Reset || step_ == Step::EndTimeMode) {
     advance(now_ns);
   } else {
     ++failures_;
@@ -161,6 +178,8 @@ void ScipSession::on_deadline(HostStamp now_ns) {
       return restart_stream(now_ns);
     default:
       if (!is_pausing_) report(ScipTrouble::NoReply, command_ + " was not answered");
+      // A late answer would pass for a quick one to the next question.
+      if (step_ == Step::ReadTime) return give_up_time(now_ns);
       return send_again(now_ns);
   }
 }
@@ -179,6 +198,12 @@ void ScipSession::on_reply(const ScipReply& reply, HostStamp now_ns) {
     case Step::LeaveTimeMode:
     case Step::Reset:
       return advance(now_ns);
+    case Step::EndTimeMode:
+      return advance(now_ns);
+    case Step::EnterTimeMode:
+      return on_time_mode_reply(reply.status, now_ns);
+    case Step::ReadTime:
+      return on_time_reply(reply, now_ns);
     case Step::LaserOn:
       return on_laser_reply(reply.status, now_ns);
     case Step::StartStream:
@@ -239,6 +264,37 @@ bool ScipSession::is_wanted_unit(HostStamp now_ns) {
   return true;
 }
 
+void ScipSession::on_time_mode_reply(std::string_view status, HostStamp now_ns) {
+  if (status == "00" || status == "02") return enter(Step::ReadTime, now_ns);
+  report_refusal(status);
+  if (is_unknown_command(status)) return give_up_time(now_ns);
+  // A sensor that is still getting up denies it for some seconds.
+  is_pausing_ = true;
+  deadline_ns_ = now_ns + to_ns(options_.laser_retry_s);
+}
+
+void ScipSession::on_time_reply(const ScipReply& reply, HostStamp now_ns) {
+  const auto device_ms = parse_time(reply.data);
+  if (reply.status != "00" || !device_ms) {
+    report(ScipTrouble::Corrupt, "reply to TM1: status " + describe_status(command_, reply.status));
+    return send_again(now_ns);
+  }
+  readings_.answer(unwrapper_.unwrap(*device_ms).stamp_ms, now_ns);
+  if (readings_.count() < options_.time_readings) return enter(Step::ReadTime, now_ns);
+  if (readings_.best()->round_trip_ns > to_ns(options_.max_round_trip_s)) return give_up_time(now_ns);
+  clock_.use(*readings_.best());
+  enter(Step::EndTimeMode, now_ns);
+}
+
+void ScipSession::give_up_time(HostStamp now_ns) {
+  std::string detail = "the sensor does not tell its time";
+  if (const auto& best = readings_.best()) {
+    detail = "TM1 took " + std::to_string(best->round_trip_ns / 1'000'000) + " ms at the least";
+  }
+  report(ScipTrouble::TimeUnknown, detail + "; its clock is mapped by arrivals and min_latency");
+  enter(Step::EndTimeMode, now_ns);
+}
+
 void ScipSession::on_laser_reply(std::string_view status, HostStamp now_ns) {
   if (status == "00" || status == "02") return advance(now_ns);
   if (status == "01") {
@@ -258,11 +314,14 @@ void ScipSession::prepare_stream() {
   if (is_intensity_refused_) request_.symbol = "MD";
   const double period_ns = scan_period_ns(device_.parameters, options_.skip_scan);
   if (period_ns != clock_.nominal_period_ns()) clock_.set_nominal_period(period_ns);
+  pulses_.set_turn_period(scan_period_ns(device_.parameters, 0));
 }
 
 void ScipSession::begin_stream(HostStamp now_ns) {
   good_scans_ = 0;
   wrong_lengths_ = 0;
+  is_future_told_ = false;
+  is_misplacement_told_ = false;
   last_stamp_ms_ = -1;
   enter(Step::Stream, now_ns);
   // The mirror may still be getting up to speed.
@@ -334,13 +393,43 @@ void ScipSession::accept_scan(HostStamp arrival_ns, bool is_arrival_exact, HostS
   }
   last_stamp_ms_ = stamp.stamp_ms;
 
-  const ScanTime time = clock_.add(stamp.stamp_ms, arrival_ns, is_arrival_exact);
-  events_.emplace_back(
-      to_laser_scan(raw_, request_, device_.parameters, stamp.stamp_ms, time, options_.stamp_reference));
+  const ScanTime time = place_in_time(stamp.stamp_ms, arrival_ns, is_arrival_exact);
+  LaserScan scan = to_laser_scan(raw_, request_, device_.parameters, stamp.stamp_ms, time, options_.stamp_reference);
+  check_stamps(scan, arrival_ns);
+  events_.emplace_back(std::move(scan));
   ++counters_.scans;
   wrong_lengths_ = 0;
   if (++good_scans_ >= kProvenStream) failures_ = 0;
   deadline_ns_ = now_ns + watchdog_ns();
+}
+
+ScanTime ScipSession::place_in_time(std::int64_t device_stamp_ms, HostStamp arrival_ns, bool is_arrival_exact) {
+  const auto latency_ns = std::llround(clock_.latency_ns());
+  const bool was_locked = pulses_.is_locked();
+  const auto rear_ns = pulses_.match(arrival_ns - latency_ns);
+  if (pulses_.is_locked() != was_locked) clock_.reset();
+  if (!pulses_.is_locked()) return clock_.add(device_stamp_ms, arrival_ns, is_arrival_exact);
+  return clock_.add(device_stamp_ms, rear_ns ? *rear_ns + latency_ns : arrival_ns, rear_ns.has_value());
+}
+
+void ScipSession::check_stamps(const LaserScan& scan, HostStamp arrival_ns) {
+  const double beams = static_cast<double>(scan.ranges_m.size()) - 1.0;
+  const double end_ns = static_cast<double>(scan.first_beam_stamp_ns - arrival_ns) + beams * scan.beam_interval_ns;
+  if (end_ns > kMaxFuture_ns && !std::exchange(is_future_told_, true)) {
+    report(ScipTrouble::FutureStamp, "a scan arrived " + std::to_string(std::llround(end_ns / 1e6)) +
+                                         " ms before its last beam; check min_latency and stamp_reference");
+  }
+  if (pulses_.is_misplaced() && !std::exchange(is_misplacement_told_, true)) {
+    report(ScipTrouble::SyncPulse, "pulses come " + std::to_string(std::llround(pulses_.residual_ns() / 1e6)) +
+                                       " ms behind the scans' clock and are left out; add that to sync_offset");
+  }
+}
+
+ClockQuality ScipSession::clock_quality() const {
+  ClockQuality quality = clock_.quality();
+  quality.sync_residual_ms = pulses_.residual_ns() / 1e6;
+  if (pulses_.is_locked()) quality.source = ClockSource::SyncPulse;
+  return quality;
 }
 
 void ScipSession::restart_stream(HostStamp now_ns) {

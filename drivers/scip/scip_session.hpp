@@ -14,18 +14,20 @@
 #include "drivers/scip/scip_framer.hpp"
 #include "drivers/scip/scip_options.hpp"
 #include "drivers/scip/stamp_unwrapper.hpp"
+#include "drivers/scip/sync_pulses.hpp"
+#include "drivers/scip/time_reading.hpp"
 
 namespace stairway::drivers {
 
 /// Opens a UTM-30LX that may be in any state, keeps it streaming, and turns its bytes into scans. Bytes and times in,
 /// events and commands out; it has no port, thread or clock.
 ///
-/// Opening: drain, QT, TM2, RS, drain, RS, VV, PP, II, BM, MD. A silent stream is first restarted with QT and MD; after
-/// `restarts_before_reopen` failures in a row the session asks for another port and opens from the start, with a
-/// pause that doubles up to `max_backoff_s`, without end. A corrupt scan costs that scan only; when scans of a wrong
-/// length do not end, MD is sent again. Status queries are never sent into a stream. Commands that a sensor does not
-/// know (0D, 0E) are reported and done without; without PP a UTM-30LX's figures are used, and where ME is not known,
-/// ranges are asked for without intensities until the next opening.
+/// Opening: drain, QT, TM2, RS, drain, RS, VV, PP, II, if wanted TM0, TM1 several times, TM2, then BM, MD. A silent
+/// stream is first restarted with QT and MD; after `restarts_before_reopen` failures in a row the session asks for
+/// another port and opens from the start, with a pause that doubles up to `max_backoff_s`, without end. A corrupt scan
+/// costs that scan only; when scans of a wrong length do not end, MD is sent again. Status queries are never sent into
+/// a stream. Commands that a sensor does not know (0D, 0E) are reported and done without; without PP a UTM-30LX's
+/// figures are used, and where ME is not known, ranges are asked for without intensities until the next opening.
 ///
 /// Call `on_bytes` or `on_time` at least once per `deadline()`, with times that do not go back, and send what
 /// `take_output` gives. The first call begins.
@@ -42,6 +44,8 @@ class ScipSession {
   std::vector<ScipEvent> on_disconnect(HostStamp now_ns, std::string_view detail);
   /// So many bytes were dropped on their way before the next ones; a scan with a hole is refused by its sums.
   std::vector<ScipEvent> on_lost_bytes(std::size_t bytes);
+  /// A pulse of the sensor's synchronous output began [ns]; to be told before the scan of the same turn.
+  void on_sync_pulse(HostStamp stamp_ns) { pulses_.add(stamp_ns); }
   /// Cuts the pause short that precedes the next attempt to open, e.g. because the sensor was plugged in.
   void retry_now(HostStamp now_ns);
 
@@ -54,7 +58,7 @@ class ScipSession {
 
   ScipState state() const;
   const ScipCounters& counters() const { return counters_; }
-  ClockQuality clock_quality() const { return clock_.quality(); }
+  ClockQuality clock_quality() const;
   const ScipDeviceInfo& device() const { return device_; }
 
  private:
@@ -70,6 +74,9 @@ class ScipSession {
     AskVersion,
     AskParameters,
     AskState,
+    EnterTimeMode,
+    ReadTime,
+    EndTimeMode,
     LaserOn,
     StartStream,
     Stream,
@@ -86,11 +93,17 @@ class ScipSession {
   void on_reply(const ScipReply& reply, HostStamp now_ns);
   void on_setup_reply(const ScipReply& reply, HostStamp now_ns);
   bool is_wanted_unit(HostStamp now_ns);
+  void on_time_mode_reply(std::string_view status, HostStamp now_ns);
+  void on_time_reply(const ScipReply& reply, HostStamp now_ns);
+  void give_up_time(HostStamp now_ns);
   void on_laser_reply(std::string_view status, HostStamp now_ns);
   void on_stream_block(const ScipBlock& block, HostStamp now_ns);
   void on_stream_status(std::string_view status, HostStamp now_ns);
   void on_wrong_length(HostStamp now_ns);
   void accept_scan(HostStamp arrival_ns, bool is_arrival_exact, HostStamp now_ns);
+
+  ScanTime place_in_time(std::int64_t device_stamp_ms, HostStamp arrival_ns, bool is_arrival_exact);
+  void check_stamps(const LaserScan& scan, HostStamp arrival_ns);
 
   void prepare_stream();
   void begin_stream(HostStamp now_ns);
@@ -106,6 +119,8 @@ class ScipSession {
   ScipFramer framer_;
   StampUnwrapper unwrapper_;
   ClockMapping clock_;
+  TimeReadings readings_;
+  SyncPulses pulses_;
   ScipDeviceInfo device_;
   ScanRequest request_;
   RawScan raw_;
@@ -115,6 +130,8 @@ class ScipSession {
   HostStamp drain_end_ns_ = 0;
   std::string command_;
   int attempts_ = 0;
+  bool is_future_told_ = false;        // of this stream
+  bool is_misplacement_told_ = false;  // likewise
   bool is_pausing_ = false;            // before BM is sent again
   bool is_reattaching_ = false;        // the sensor was set up before: only its stream is started again
   bool is_intensity_refused_ = false;  // by this sensor, until it is opened again

@@ -73,7 +73,7 @@ TEST(Options, every_member_has_a_key) {
   };
   for (const Case& entry : cases) EXPECT_EQ(keys_of(entry.section), entry.members - entry.nested) << entry.section;
   const std::size_t lidar = count_members<drivers::ScipOptions>() + count_members<drivers::ClockOptions>() +
-                            count_members<drivers::UsbOptions>() - 1;
+                            count_members<drivers::UsbOptions>() + count_members<drivers::SyncInputOptions>() - 1;
   EXPECT_EQ(keys_of("lidar") + keys_of("lidar.timing"), lidar);
   EXPECT_EQ(keys_of("motor") + keys_of("motor.timing"), count_members<drivers::MotorOptions>());
   EXPECT_EQ(keys_of("encoder"), count_members<drivers::EncoderOptions>());

@@ -2,76 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <string>
-#include <variant>
-#include <vector>
 
-#include "drivers/scip/scip_session.hpp"
-#include "tools/sim/fake_utm30lx.hpp"
+#include "tests/tools/sensor_bench.hpp"
 #include "tools/sim/sensor_faults.hpp"
 
 namespace stairway::sim {
 namespace {
 
-using drivers::HostStamp;
-using drivers::LaserScan;
 using drivers::ScipOptions;
 using drivers::ScipState;
 using drivers::ScipTrouble;
-
-constexpr std::uint32_t kRange_mm = 2345;
-
-// A session and the simulated sensor, stepped together through simulated time.
-class Bench {
- public:
-  explicit Bench(const FakeUtm30lxOptions& sensor_options = {}, const ScipOptions& options = {})
-      : sensor(sensor_options,
-               [](auto, auto, std::span<std::uint32_t> values) { std::ranges::fill(values, kRange_mm); }),
-        session(options) {}
-
-  void run(double seconds) {
-    const HostStamp end_ns = now_ns + std::llround(seconds * 1e9);
-    while (now_ns < end_ns) {
-      now_ns = std::min({end_ns, std::max(now_ns, session.deadline()), std::max(now_ns, sensor.next_due_ns())});
-      if (const auto chunk = sensor.take(now_ns)) take(session.on_bytes(chunk->bytes, chunk->arrival_ns));
-      take(session.on_time(now_ns));
-      if (const std::string output = session.take_output(); !output.empty()) sensor.receive(output, now_ns);
-    }
-  }
-
-  /// Seconds until `wanted` more scans were decoded; negative when that took more than `limit_s`.
-  double time_to_scans(std::uint64_t wanted, double limit_s) {
-    const std::uint64_t enough = session.counters().scans + wanted;
-    const HostStamp start_ns = now_ns;
-    while (session.counters().scans < enough) {
-      if (static_cast<double>(now_ns - start_ns) > 1e9 * limit_s) return -1.0;
-      run(0.025);
-    }
-    return 1e-9 * static_cast<double>(now_ns - start_ns);
-  }
-
-  std::uint64_t count(ScipTrouble trouble) const { return session.counters().count(trouble); }
-
-  FakeUtm30lx sensor;
-  drivers::ScipSession session;
-  HostStamp now_ns = 10'000'000'000;
-  std::vector<LaserScan> scans;
-  std::uint64_t wrong_scans = 0;
-
- private:
-  void take(std::vector<drivers::ScipEvent> events) {
-    for (drivers::ScipEvent& event : events) {
-      auto* scan = std::get_if<LaserScan>(&event);
-      if (!scan) continue;
-      const auto is_right = [](float range_m) { return std::abs(range_m - 1e-3F * kRange_mm) < 1e-6F; };
-      if (!std::ranges::all_of(scan->ranges_m, is_right)) ++wrong_scans;
-      scans.push_back(std::move(*scan));
-    }
-  }
-};
 
 struct FaultCase {
   const char* name;
@@ -85,7 +27,7 @@ class FaultInTheStream : public testing::TestWithParam<FaultCase> {};
 
 TEST_P(FaultInTheStream, is_told_and_the_stream_comes_back) {
   const FaultCase& param = GetParam();
-  Bench bench;
+  SensorBench bench;
   ASSERT_GE(bench.time_to_scans(80, 5.0), 0.0);
   bench.sensor.inject(param.fault, param.count);
   const double taken_s = bench.time_to_scans(40, 60.0);
@@ -118,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return one.param.name; });
 
 TEST(SensorFaults, a_laser_that_fails_three_times_is_opened_anew_and_works) {
-  Bench bench;
+  SensorBench bench;
   ASSERT_GE(bench.time_to_scans(80, 5.0), 0.0);
   bench.sensor.inject(SensorFault::LaserFault, 4);
   EXPECT_GE(bench.time_to_scans(40, 30.0), 0.0);
@@ -126,7 +68,7 @@ TEST(SensorFaults, a_laser_that_fails_three_times_is_opened_anew_and_works) {
 }
 
 TEST(SensorFaults, a_clock_that_jumps_ahead_costs_no_scan) {
-  Bench bench;
+  SensorBench bench;
   ASSERT_GE(bench.time_to_scans(80, 5.0), 0.0);
   bench.sensor.inject(SensorFault::ClockJump);
   EXPECT_LE(bench.time_to_scans(40, 5.0), 1.1);
@@ -139,7 +81,7 @@ TEST(SensorFaults, a_clock_that_jumps_ahead_costs_no_scan) {
 TEST(SensorFaults, old_firmware_is_told_and_used) {
   FakeUtm30lxOptions options;
   options.firmware = "1.16.02(19/Jan./2010)";
-  Bench bench(options);
+  SensorBench bench(options);
   EXPECT_GE(bench.time_to_scans(40, 5.0), 0.0);
   EXPECT_EQ(bench.count(ScipTrouble::OldFirmware), 1U);
 }
@@ -155,7 +97,7 @@ class FaultWhileOpening : public testing::TestWithParam<OpeningCase> {};
 
 TEST_P(FaultWhileOpening, is_overcome_after_some_failures) {
   const OpeningCase& param = GetParam();
-  Bench bench;
+  SensorBench bench;
   bench.sensor.receive("MD0000108001000\n", bench.now_ns - 1'000'000'000);  // left streaming by an earlier run
   bench.sensor.inject(param.fault, param.count);
   const double taken_s = bench.time_to_scans(40, 120.0);
@@ -177,14 +119,14 @@ TEST(SensorFaults, an_overloaded_sensor_loses_scans_and_gives_no_wrong_one) {
   ScipOptions options;
   options.intensities = true;
   options.force_intensities = true;
-  Bench bench({}, options);
+  SensorBench bench({}, options);
   EXPECT_GE(bench.time_to_scans(40, 10.0), 0.0);
   EXPECT_GE(bench.count(ScipTrouble::Corrupt), 5U);
   EXPECT_EQ(bench.wrong_scans, 0U);
 }
 
 TEST(SensorFaults, a_sensor_that_fails_in_every_way_at_once_comes_back) {
-  Bench bench;
+  SensorBench bench;
   ASSERT_GE(bench.time_to_scans(80, 5.0), 0.0);
   for (std::size_t i = 0; i < kSensorFaults; ++i) bench.sensor.inject(static_cast<SensorFault>(i), 3);
   EXPECT_GE(bench.time_to_scans(100, 120.0), 0.0);
