@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <limits>
 #include <map>
 #include <optional>
@@ -14,6 +13,7 @@
 
 #include "drivers/canopen/canopen_frames.hpp"
 #include "drivers/canopen/cia402.hpp"
+#include "drivers/canopen/fault_recovery.hpp"
 #include "drivers/canopen/feedback_assembler.hpp"
 #include "drivers/canopen/motor_events.hpp"
 #include "drivers/canopen/motor_options.hpp"
@@ -120,6 +120,7 @@ class MotorSession {
   void begin_fault(HostStamp at_ns);
   void step_fault(HostStamp at_ns);
   void tell_fault(const SdoResult& result, HostStamp at_ns);
+  void wait_to_reset(HostStamp now_ns);
   void try_reset(HostStamp now_ns);
   void give_feedback();
   void watch_target(const DriveFeedback& feedback);
@@ -137,7 +138,6 @@ class MotorSession {
   bool is_watched() const { return step_ >= Step::StartNode && step_ <= Step::ResetFault; }
   bool is_operational() const { return step_ >= Step::Enable && step_ <= Step::ResetFault; }
   bool is_at_rest() const { return step_ == Step::Backoff || step_ == Step::Stopped || step_ == Step::Start; }
-  HostStamp reset_allowed_ns() const;
   void report(MotorTrouble trouble, std::string detail, HostStamp at_ns);
   std::vector<MotorEvent> take_events();
 
@@ -147,6 +147,7 @@ class MotorSession {
   SdoClient sdo_;
   SetupSequence setup_;
   StopSequence stopping_;
+  FaultRecovery recovery_;
 
   Step step_ = Step::Start;
   HostStamp step_deadline_ns_ = std::numeric_limits<HostStamp>::min();
@@ -164,9 +165,6 @@ class MotorSession {
   DriveState drive_state_ = DriveState::Unknown;
   std::optional<DriveState> acted_on_;  // the state that the last command answered
   std::optional<Emergency> emergency_;
-  bool is_local_told_ = false;
-  bool is_limit_told_ = false;
-  std::deque<HostStamp> resets_ns_;
 
   Command command_;
   bool is_command_new_ = false;

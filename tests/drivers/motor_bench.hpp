@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -17,6 +19,7 @@
 namespace stairway::drivers {
 
 inline constexpr HostStamp kMs = 1'000'000;
+inline constexpr double kSpeed_rad_s = 0.18;
 
 /// A session and the simulated drive on one time.
 struct MotorBench {
@@ -95,6 +98,20 @@ struct MotorBench {
   HostStamp poll_ms = 1;
   std::vector<MotorEvent> events;
   std::vector<CanFrame> sent;
+};
+
+/// A bench whose disk turns at the wanted speed.
+struct RunningBench : MotorBench {
+  explicit RunningBench(const MotorOptions& options = {}, const sim::FakeDriveOptions& drive_options = {})
+      : MotorBench(options, drive_options) {
+    session.set_speed(kSpeed_rad_s);
+    run(8.0);
+    EXPECT_EQ(session.state(), MotorState::Running);
+    EXPECT_EQ(all_troubles(), 0U);
+    events.clear();
+    sent.clear();
+  }
+  bool recovers(double most_s) { return run_until(MotorState::Running, most_s) && run_until_speed(kSpeed_rad_s, 2.0); }
 };
 
 }  // namespace stairway::drivers

@@ -11,8 +11,6 @@
 namespace stairway::drivers {
 namespace {
 
-constexpr double kSpeed_rad_s = 0.18;
-
 TEST(MotorSession, finds_sets_up_and_enables_a_drive_and_follows_the_wanted_speed) {
   MotorBench bench;
   bench.session.set_speed(kSpeed_rad_s);
