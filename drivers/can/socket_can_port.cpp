@@ -28,7 +28,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-constexpr std::size_t kMostFrames = 256;  // in one read
+constexpr std::size_t kMostFrames = 1024;  // in one read: more than the kernel holds
 constexpr nanoseconds kLinkPoll = milliseconds(100);
 constexpr nanoseconds kQueuePause = milliseconds(1);
 constexpr int kQueueAttempts = 100;

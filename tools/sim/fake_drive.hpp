@@ -67,7 +67,7 @@ class FakeDrive {
 
   /// Takes what some other node sent at `now_ns`; times do not go back.
   void receive(const drivers::CanFrame& frame, drivers::HostStamp now_ns);
-  /// When it will have something to say or the disk's speed changes; it always will.
+  /// When it will have something to say or the disk's speed changes; the greatest stamp when nothing is to come.
   drivers::HostStamp next_due_ns() const;
   /// Lets time pass: the disk turns, frames wait to be taken.
   void advance(drivers::HostStamp now_ns);
