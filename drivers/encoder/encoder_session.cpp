@@ -204,6 +204,8 @@ void EncoderSession::repeat_angle(HostStamp stamp_ns) {
 }
 
 void EncoderSession::emit(HostStamp stamp_ns, double angle_rad) {
+  // An edge may have waited for its interrupt while the angle before it was repeated.
+  if (last_sample_) stamp_ns = std::max(stamp_ns, last_sample_->stamp_ns);
   last_sample_ = AngleSample{stamp_ns, angle_rad, state_ == EncoderState::Indexed};
   samples_.push_back(*last_sample_);
 }

@@ -273,6 +273,18 @@ TEST(DiskEncoder, warns_of_edges_faster_than_the_queue_allows) {
   EXPECT_NE(bench.details.back().find("edges per second"), std::string::npos);
 }
 
+TEST(EncoderSession, an_edge_from_just_before_a_repeated_angle_keeps_the_order) {
+  EncoderSession session{EncoderOptions{}};
+  session.on_open({0, false, false, false}, 16);
+  const auto repeated = session.on_edges({{}, 0, 60'000'000});
+  const auto edge = session.on_edges({{{59'990'000, drivers::EncoderLine::B, true}}, 0, 60'100'000});
+  ASSERT_FALSE(repeated.empty() || edge.empty());
+  const auto& before = std::get<std::vector<drivers::AngleSample>>(repeated.front());
+  const auto& after = std::get<std::vector<drivers::AngleSample>>(edge.front());
+  EXPECT_EQ(before.back().stamp_ns, 60'000'000);
+  EXPECT_EQ(after.front().stamp_ns, 60'000'000);
+}
+
 TEST(EncoderSession, random_edges_do_not_break_it) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     sim::Random random(seed);

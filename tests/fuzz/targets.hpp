@@ -23,9 +23,13 @@ std::vector<Seed> scip_seeds();
 void run_can(std::span<const std::uint8_t> input);
 std::vector<Seed> can_seeds();
 
+void run_quadrature(std::span<const std::uint8_t> input);
+std::vector<Seed> quadrature_seeds();
+
 inline constexpr Target kTargets[] = {
     {"scip", run_scip, scip_seeds},
     {"can", run_can, can_seeds},
+    {"quadrature", run_quadrature, quadrature_seeds},
 };
 
 }  // namespace stairway::fuzz
