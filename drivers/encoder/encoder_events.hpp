@@ -38,6 +38,7 @@ const char* to_string(EncoderTrouble trouble);
 struct EncoderCounters {
   std::uint64_t edges = 0;
   std::uint64_t indices = 0;
+  std::uint64_t lost_edges = 0;  ///< as the kernel told; not all kernels do
   std::array<std::uint64_t, kEncoderTroubles> troubles{};
 
   std::uint64_t count(EncoderTrouble trouble) const { return troubles[static_cast<std::size_t>(trouble)]; }

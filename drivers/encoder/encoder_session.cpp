@@ -51,6 +51,7 @@ std::vector<EncoderEvent> EncoderSession::on_open(const LineLevels& levels, int 
 
 std::vector<EncoderEvent> EncoderSession::on_edges(const EdgeBatch& batch) {
   if (batch.lost_edges > 0) {
+    counters_.lost_edges += batch.lost_edges;
     report(EncoderTrouble::LostEdges, std::to_string(batch.lost_edges) +
                                           " edges were not read in time; turn slower or give the reader more "
                                           "priority");

@@ -144,6 +144,7 @@ TEST_P(LostEdges, are_counted_and_make_angles_invalid_until_the_next_index) {
   GetParam().damage(bench.lines.faults());
   bench.run(0.2);
   EXPECT_GE(bench.count(GetParam().trouble), 1U);
+  EXPECT_EQ(bench.session().counters().lost_edges, GetParam().trouble == EncoderTrouble::LostEdges ? 5U : 0U);
   EXPECT_EQ(bench.session().state(), EncoderState::Unindexed);
   EXPECT_FALSE(bench.samples.back().valid);
   bench.run(kTurn_rad);
