@@ -46,6 +46,9 @@ struct SensorParameters {
   int last_step = 1080;       ///< AMAX
   int front_step = 540;       ///< AFRT
   int scan_speed_rpm = 2400;  ///< SCAN
+
+  /// Time from one sent scan to the next, when so many turns of the mirror are left out between them [ns].
+  double scan_period_ns(int skip_scan) const { return 60e9 / scan_speed_rpm * (skip_scan + 1); }
 };
 
 /// What II says.

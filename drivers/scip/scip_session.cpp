@@ -7,35 +7,25 @@
 #include <utility>
 
 #include "drivers/backoff.hpp"
-#include "drivers/scip/scan_conversion.hpp"
 #include "drivers/scip/scip_status.hpp"
 #include "drivers/scip/unit_checks.hpp"
 
 namespace stairway::drivers {
 namespace {
 
-constexpr int kProvenStream = 40;    // scans after which earlier failures are forgiven
-constexpr int kRepeatsToReport = 2;  // after the first: one repetition also comes from rounding
+constexpr int kProvenStream = 40;  // scans after which earlier failures are forgiven
 constexpr std::size_t kMaxQuote = 32;
-constexpr double kMaxFuture_ns = 1e6;
 // One alone is a lost line. Time for the sensor to follow the command passes before the next attempt.
 constexpr int kWrongLengthsToAskAgain = 4;
 constexpr int kWrongLengthsToRestart = 12;
 
 HostStamp to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
-double scan_period_ns(const SensorParameters& sensor, int skip_scan) {
-  return 60e9 / sensor.scan_speed_rpm * (skip_scan + 1);
-}
-
 bool is_unknown_command(std::string_view status) { return status_kind({}, status) == StatusKind::Unknown; }
 
 }  // namespace
 
-ScipSession::ScipSession(const ScipOptions& options)
-    : options_(options),
-      clock_(options.clock, scan_period_ns(SensorParameters{}, options.skip_scan)),
-      pulses_(options.sync_offset_ns) {}
+ScipSession::ScipSession(const ScipOptions& options) : options_(options), clock_(options) {}
 
 std::vector<ScipEvent> ScipSession::on_bytes(std::string_view bytes, HostStamp arrival_ns) {
   if (step_ == Step::Start) enter(Step::Drain, arrival_ns);
@@ -238,8 +228,7 @@ void ScipSession::on_setup_reply(const ScipReply& reply, HostStamp now_ns) {
   if (step_ == Step::AskVersion && !is_wanted_unit(now_ns)) return;
 
   if (step_ == Step::ResetAgain) {
-    unwrapper_.clear();
-    clock_.reset();
+    clock_.expect_reset();
   }
   const bool is_faulty = step_ == Step::AskState && !device_.state.is_healthy();
   if (step_ == Step::AskState) events_.emplace_back(device_);
@@ -279,7 +268,7 @@ void ScipSession::on_time_reply(const ScipReply& reply, HostStamp now_ns) {
     report(ScipTrouble::Corrupt, "reply to TM1: status " + describe_status(command_, reply.status));
     return send_again(now_ns);
   }
-  readings_.answer(unwrapper_.unwrap(*device_ms).stamp_ms, now_ns);
+  readings_.answer(clock_.unwrap(*device_ms), now_ns);
   if (readings_.count() < options_.time_readings) return enter(Step::ReadTime, now_ns);
   if (readings_.best()->round_trip_ns > to_ns(options_.max_round_trip_s)) return give_up_time(now_ns);
   clock_.use(*readings_.best());
@@ -312,17 +301,12 @@ void ScipSession::on_laser_reply(std::string_view status, HostStamp now_ns) {
 void ScipSession::prepare_stream() {
   request_ = make_request(options_, device_.parameters);
   if (is_intensity_refused_) request_.symbol = "MD";
-  const double period_ns = scan_period_ns(device_.parameters, options_.skip_scan);
-  if (period_ns != clock_.nominal_period_ns()) clock_.set_nominal_period(period_ns);
-  pulses_.set_turn_period(scan_period_ns(device_.parameters, 0));
 }
 
 void ScipSession::begin_stream(HostStamp now_ns) {
   good_scans_ = 0;
   wrong_lengths_ = 0;
-  is_future_told_ = false;
-  is_misplacement_told_ = false;
-  last_stamp_ms_ = -1;
+  clock_.begin_stream(device_.parameters);
   enter(Step::Stream, now_ns);
   // The mirror may still be getting up to speed.
   deadline_ns_ = now_ns + std::max(watchdog_ns(), to_ns(options_.command_timeout_s));
@@ -382,54 +366,13 @@ void ScipSession::on_wrong_length(HostStamp now_ns) {
 }
 
 void ScipSession::accept_scan(HostStamp arrival_ns, bool is_arrival_exact, HostStamp now_ns) {
-  const auto stamp = unwrapper_.unwrap(raw_.stamp_ms);
-  if (stamp.is_reset) {
-    report(ScipTrouble::ClockReset, "device stamp " + std::to_string(stamp.stamp_ms) + " ms");
-    clock_.reset();
-  }
-  repeated_stamps_ = stamp.stamp_ms == last_stamp_ms_ ? repeated_stamps_ + 1 : 0;
-  if (repeated_stamps_ == kRepeatsToReport) {
-    report(ScipTrouble::RepeatedStamp, "device stamp " + std::to_string(stamp.stamp_ms) + " ms");
-  }
-  last_stamp_ms_ = stamp.stamp_ms;
-
-  const ScanTime time = place_in_time(stamp.stamp_ms, arrival_ns, is_arrival_exact);
-  LaserScan scan = to_laser_scan(raw_, request_, device_.parameters, stamp.stamp_ms, time, options_.stamp_reference);
-  check_stamps(scan, arrival_ns);
+  LaserScan scan = clock_.to_scan(raw_, request_, device_.parameters, arrival_ns, is_arrival_exact);
+  for (ScipTroubleEvent& trouble : clock_.take_troubles()) report(trouble.trouble, std::move(trouble.detail));
   events_.emplace_back(std::move(scan));
   ++counters_.scans;
   wrong_lengths_ = 0;
   if (++good_scans_ >= kProvenStream) failures_ = 0;
   deadline_ns_ = now_ns + watchdog_ns();
-}
-
-ScanTime ScipSession::place_in_time(std::int64_t device_stamp_ms, HostStamp arrival_ns, bool is_arrival_exact) {
-  const auto latency_ns = std::llround(clock_.latency_ns());
-  const bool was_locked = pulses_.is_locked();
-  const auto rear_ns = pulses_.match(arrival_ns - latency_ns);
-  if (pulses_.is_locked() != was_locked) clock_.reset();
-  if (!pulses_.is_locked()) return clock_.add(device_stamp_ms, arrival_ns, is_arrival_exact);
-  return clock_.add(device_stamp_ms, rear_ns ? *rear_ns + latency_ns : arrival_ns, rear_ns.has_value());
-}
-
-void ScipSession::check_stamps(const LaserScan& scan, HostStamp arrival_ns) {
-  const double beams = static_cast<double>(scan.ranges_m.size()) - 1.0;
-  const double end_ns = static_cast<double>(scan.first_beam_stamp_ns - arrival_ns) + beams * scan.beam_interval_ns;
-  if (end_ns > kMaxFuture_ns && !std::exchange(is_future_told_, true)) {
-    report(ScipTrouble::FutureStamp, "a scan arrived " + std::to_string(std::llround(end_ns / 1e6)) +
-                                         " ms before its last beam; check min_latency and stamp_reference");
-  }
-  if (pulses_.is_misplaced() && !std::exchange(is_misplacement_told_, true)) {
-    report(ScipTrouble::SyncPulse, "pulses come " + std::to_string(std::llround(pulses_.residual_ns() / 1e6)) +
-                                       " ms behind the scans' clock and are left out; add that to sync_offset");
-  }
-}
-
-ClockQuality ScipSession::clock_quality() const {
-  ClockQuality quality = clock_.quality();
-  quality.sync_residual_ms = pulses_.residual_ns() / 1e6;
-  if (pulses_.is_locked()) quality.source = ClockSource::SyncPulse;
-  return quality;
 }
 
 void ScipSession::restart_stream(HostStamp now_ns) {
@@ -455,7 +398,7 @@ void ScipSession::report_refusal(std::string_view status) {
 }
 
 HostStamp ScipSession::watchdog_ns() const {
-  return std::llround(3.0 * scan_period_ns(device_.parameters, options_.skip_scan)) + to_ns(options_.watchdog_margin_s);
+  return std::llround(3.0 * device_.parameters.scan_period_ns(options_.skip_scan)) + to_ns(options_.watchdog_margin_s);
 }
 
 std::vector<ScipEvent> ScipSession::take_events() { return std::exchange(events_, {}); }

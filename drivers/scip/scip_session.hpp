@@ -9,12 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "drivers/scip/clock_mapping.hpp"
+#include "drivers/scip/scan_clock.hpp"
 #include "drivers/scip/scip_events.hpp"
 #include "drivers/scip/scip_framer.hpp"
 #include "drivers/scip/scip_options.hpp"
-#include "drivers/scip/stamp_unwrapper.hpp"
-#include "drivers/scip/sync_pulses.hpp"
 #include "drivers/scip/time_reading.hpp"
 
 namespace stairway::drivers {
@@ -45,7 +43,7 @@ class ScipSession {
   /// So many bytes were dropped on their way before the next ones; a scan with a hole is refused by its sums.
   std::vector<ScipEvent> on_lost_bytes(std::size_t bytes);
   /// A pulse of the sensor's synchronous output began [ns]; to be told before the scan of the same turn.
-  void on_sync_pulse(HostStamp stamp_ns) { pulses_.add(stamp_ns); }
+  void on_sync_pulse(HostStamp stamp_ns) { clock_.add_pulse(stamp_ns); }
   /// Cuts the pause short that precedes the next attempt to open, e.g. because the sensor was plugged in.
   void retry_now(HostStamp now_ns);
 
@@ -58,7 +56,7 @@ class ScipSession {
 
   ScipState state() const;
   const ScipCounters& counters() const { return counters_; }
-  ClockQuality clock_quality() const;
+  ClockQuality clock_quality() const { return clock_.quality(); }
   const ScipDeviceInfo& device() const { return device_; }
 
  private:
@@ -102,9 +100,6 @@ class ScipSession {
   void on_wrong_length(HostStamp now_ns);
   void accept_scan(HostStamp arrival_ns, bool is_arrival_exact, HostStamp now_ns);
 
-  ScanTime place_in_time(std::int64_t device_stamp_ms, HostStamp arrival_ns, bool is_arrival_exact);
-  void check_stamps(const LaserScan& scan, HostStamp arrival_ns);
-
   void prepare_stream();
   void begin_stream(HostStamp now_ns);
   void restart_stream(HostStamp now_ns);
@@ -117,10 +112,8 @@ class ScipSession {
 
   ScipOptions options_;
   ScipFramer framer_;
-  StampUnwrapper unwrapper_;
-  ClockMapping clock_;
+  ScanClock clock_;
   TimeReadings readings_;
-  SyncPulses pulses_;
   ScipDeviceInfo device_;
   ScanRequest request_;
   RawScan raw_;
@@ -130,16 +123,12 @@ class ScipSession {
   HostStamp drain_end_ns_ = 0;
   std::string command_;
   int attempts_ = 0;
-  bool is_future_told_ = false;        // of this stream
-  bool is_misplacement_told_ = false;  // likewise
   bool is_pausing_ = false;            // before BM is sent again
   bool is_reattaching_ = false;        // the sensor was set up before: only its stream is started again
   bool is_intensity_refused_ = false;  // by this sensor, until it is opened again
   int failures_ = 0;                   // in a row
   int wrong_lengths_ = 0;              // in a row
   int good_scans_ = 0;                 // of this stream
-  std::int64_t last_stamp_ms_ = -1;
-  int repeated_stamps_ = 0;
 
   ScipCounters counters_;
   std::size_t overflows_ = 0;
