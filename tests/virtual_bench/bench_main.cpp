@@ -33,5 +33,10 @@ class Table : public testing::EmptyTestEventListener {
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   testing::UnitTest::GetInstance()->listeners().Append(new Table);
-  return RUN_ALL_TESTS();
+  const int result = RUN_ALL_TESTS();
+  if (testing::UnitTest::GetInstance()->test_to_run_count() == 0) {
+    std::fputs("no scenario has such a name; --list tells them\n", stderr);
+    return 2;
+  }
+  return result;
 }

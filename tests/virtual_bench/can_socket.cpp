@@ -13,11 +13,11 @@
 namespace stairway::bench {
 
 std::optional<CanSocket> CanSocket::open(const std::string& interface) {
-  FileDescriptor file(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
+  drivers::FileDescriptor file(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = static_cast<int>(::if_nametoindex(interface.c_str()));
-  if (!file || address.can_ifindex == 0) return std::nullopt;
+  if (!file.is_open() || address.can_ifindex == 0) return std::nullopt;
   if (::bind(file.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) return std::nullopt;
   return CanSocket(std::move(file));
 }

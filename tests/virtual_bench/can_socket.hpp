@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "drivers/gpio/file_descriptor.hpp"
 #include "drivers/ports/can_port.hpp"
-#include "tests/virtual_bench/file_descriptor.hpp"
 
 namespace stairway::bench {
 
@@ -25,9 +25,9 @@ class CanSocket {
   void write(const drivers::CanFrame& frame) const;
 
  private:
-  explicit CanSocket(FileDescriptor file) : file_(std::move(file)) {}
+  explicit CanSocket(drivers::FileDescriptor file) : file_(std::move(file)) {}
 
-  FileDescriptor file_;
+  drivers::FileDescriptor file_;
 };
 
 }  // namespace stairway::bench

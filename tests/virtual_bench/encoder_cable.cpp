@@ -15,12 +15,13 @@
 #include <string>
 #include <thread>
 
-#include "tests/virtual_bench/file_descriptor.hpp"
+#include "drivers/gpio/file_descriptor.hpp"
 
 namespace stairway::bench {
 namespace {
 
 using namespace std::chrono_literals;
+using drivers::FileDescriptor;
 using Levels = std::array<bool, 3>;
 
 constexpr auto kReopenPause = 20ms;
@@ -39,7 +40,7 @@ class Lines {
     for (std::size_t line = 0; line < lines.pulls_.size(); ++line) {
       const auto file = folder / ("sim_gpio" + std::to_string(line)) / "pull";
       lines.pulls_[line] = FileDescriptor(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
-      if (!lines.pulls_[line]) return std::nullopt;
+      if (!lines.pulls_[line].is_open()) return std::nullopt;
     }
     return lines;
   }
@@ -62,7 +63,7 @@ class Lines {
 
 Levels levels_at(std::int64_t count) {
   const auto phase = count & 3;
-  return {phase == 1 || phase == 2, phase >= 2, count % kEncoderCountsPerTurn == 0};
+  return {phase >= 2, phase == 1 || phase == 2, count % kEncoderCountsPerTurn == 0};
 }
 
 struct Place {

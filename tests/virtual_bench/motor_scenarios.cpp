@@ -17,11 +17,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kSpeed_rad_s = 1.2;
+constexpr double kSpeed_rad_s = 3.0;
 
 drivers::MotorOptions motor_options() {
   drivers::MotorOptions options;
   options.interface = Rig::kBus;
+  options.acceleration_rad_s2 = 10.0;
+  options.deceleration_rad_s2 = 10.0;
   options.max_backoff_s = 1.0;
   return options;
 }

@@ -10,10 +10,12 @@
 #include <cerrno>
 #include <system_error>
 
-#include "tests/virtual_bench/file_descriptor.hpp"
+#include "drivers/gpio/file_descriptor.hpp"
 
 namespace stairway::bench {
 namespace {
+
+using drivers::FileDescriptor;
 
 constexpr int kStopCheck_ms = 100;
 constexpr int kPatience_ms = 10'000;
@@ -48,14 +50,15 @@ void serve_orders(const std::string& path, const OrderHandler& handle, std::stop
   const FileDescriptor listener = make_socket();
   const sockaddr_un address = address_of(path);
   ::unlink(path.c_str());
-  if (!listener || ::bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
+  if (!listener.is_open() ||
+      ::bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
       ::listen(listener.get(), 4) != 0) {
     fail(path);
   }
   while (!stop.stop_requested()) {
     if (!is_readable(listener.get(), kStopCheck_ms)) continue;
     const FileDescriptor caller(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC));
-    if (caller && is_readable(caller.get(), kPatience_ms)) send(caller.get(), handle(receive(caller.get())));
+    if (caller.is_open() && is_readable(caller.get(), kPatience_ms)) send(caller.get(), handle(receive(caller.get())));
   }
   ::unlink(path.c_str());
 }
@@ -63,7 +66,8 @@ void serve_orders(const std::string& path, const OrderHandler& handle, std::stop
 std::string send_order(const std::string& path, const std::string& order) {
   const FileDescriptor socket = make_socket();
   const sockaddr_un address = address_of(path);
-  if (!socket || ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) fail(path);
+  if (!socket.is_open() || ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
+    fail(path);
   send(socket.get(), order);
   errno = ETIMEDOUT;
   if (!is_readable(socket.get(), kPatience_ms)) fail(path);

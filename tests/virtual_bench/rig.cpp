@@ -70,7 +70,7 @@ Rig::Rig(const fs::path& modules)
   for (std::size_t line = 0; line < kEncoderLines.size(); ++line)
     fs::create_directories(chip_ / "bank" / ("line" + std::to_string(line)));
   write(chip_ / "bank/num_lines", std::to_string(kEncoderLines.size()));
-  write(chip_ / "bank/label", "encoder");
+  write(chip_ / "bank/label", kEncoderChip);
   for (std::size_t line = 0; line < kEncoderLines.size(); ++line)
     write(chip_ / "bank" / ("line" + std::to_string(line)) / "name", kEncoderLines[line]);
 }

@@ -13,6 +13,7 @@ class Rig {
  public:
   static constexpr const char* kTty = "/dev/ttyGS0";
   static constexpr const char* kBus = "can0";
+  static constexpr const char* kEncoderChip = "encoder";
 
   /// Loads the drivers and starts what devices need: udev, which tells libusb of new ones, and a route for LCM.
   /// @param modules  folder with lib/modules.

@@ -12,7 +12,7 @@ namespace stairway::bench {
 namespace {
 
 // The index is at 0.
-constexpr double kStartAngle_rad = 1.0;
+constexpr double kStartAngle_rad = -0.5;
 
 drivers::HostStamp beam_stamp_ns(drivers::HostStamp turn_start_ns, int beam) {
   const double turns = static_cast<double>(sim::kStepsBeforeFirstBeam + beam) / sim::kStepsPerTurn;

@@ -10,11 +10,12 @@
 #include <array>
 #include <thread>
 
-#include "tests/virtual_bench/file_descriptor.hpp"
+#include "drivers/gpio/file_descriptor.hpp"
 
 namespace stairway::bench {
 namespace {
 
+using drivers::FileDescriptor;
 using namespace std::chrono_literals;
 
 constexpr auto kReopenPause = 20ms;
@@ -25,7 +26,7 @@ constexpr std::size_t kMostUnsent = 16'384;
 FileDescriptor open_raw(const std::string& tty) {
   FileDescriptor file(::open(tty.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   termios settings{};
-  if (!file || ::tcgetattr(file.get(), &settings) != 0) return FileDescriptor();
+  if (!file.is_open() || ::tcgetattr(file.get(), &settings) != 0) return FileDescriptor();
   ::cfmakeraw(&settings);
   if (::tcsetattr(file.get(), TCSANOW, &settings) != 0) return FileDescriptor();
   return file;
@@ -73,7 +74,7 @@ void talk(Robot& robot, int file, const std::stop_token& stop) {
 
 void serve_scanner(Robot& robot, const std::string& tty, std::stop_token stop) {
   while (!stop.stop_requested()) {
-    if (const FileDescriptor file = open_raw(tty)) talk(robot, file.get(), stop);
+    if (const FileDescriptor file = open_raw(tty); file.is_open()) talk(robot, file.get(), stop);
     drivers::HostStamp due_ns = 0;
     words(robot, due_ns);
     std::this_thread::sleep_for(kReopenPause);
