@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/scip/scan_clock.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int kRepeatsToReport = 2;  // after the first: one repetition also comes from rounding
 constexpr double kMaxFuture_ns = 1e6;
+constexpr int kFutureScansToReport = 20;  // in a row: single ones come from a busy host's late arrivals
 
 std::string whole_ms(double ns) { return std::to_string(std::llround(ns / 1e6)) + " ms"; }
 
@@ -34,7 +36,7 @@ void ScanClock::begin_stream(const SensorParameters& sensor) {
   if (period_ns != mapping_.nominal_period_ns()) mapping_.set_nominal_period(period_ns);
   pulses_.set_turn_period(sensor.scan_period_ns(0));
   last_stamp_ms_ = -1;
-  is_future_told_ = false;
+  future_scans_ = 0;
   is_misplacement_told_ = false;
 }
 
@@ -75,7 +77,8 @@ ScanTime ScanClock::place(std::int64_t device_stamp_ms, HostStamp arrival_ns, bo
 void ScanClock::check_end(const LaserScan& scan, HostStamp arrival_ns) {
   const double beams = static_cast<double>(scan.ranges_m.size()) - 1.0;
   const double end_ns = static_cast<double>(scan.first_beam_stamp_ns - arrival_ns) + beams * scan.beam_interval_ns;
-  if (end_ns <= kMaxFuture_ns || std::exchange(is_future_told_, true)) return;
+  future_scans_ = end_ns > kMaxFuture_ns ? std::min(future_scans_ + 1, kFutureScansToReport + 1) : 0;
+  if (future_scans_ != kFutureScansToReport) return;
   troubles_.push_back({ScipTrouble::FutureStamp, "a scan arrived " + whole_ms(end_ns) +
                                                      " before its last beam; check min_latency and stamp_reference"});
 }

@@ -55,8 +55,8 @@ class ScanClock {
   SyncPulses pulses_;
   std::int64_t last_stamp_ms_ = -1;
   int repeated_stamps_ = 0;
-  bool is_future_told_ = false;        // of this stream
-  bool is_misplacement_told_ = false;  // likewise
+  int future_scans_ = 0;               // in a row
+  bool is_misplacement_told_ = false;  // of this stream
   std::vector<ScipTroubleEvent> troubles_;
 };
 

@@ -37,7 +37,7 @@ enum class ScipTrouble : std::uint8_t {
   WrongUnit,      ///< a sensor with another serial number than the wanted one
   OldFirmware,    ///< a firmware with known faults
   TimeUnknown,    ///< the sensor's clock could not be read, or only too slowly
-  FutureStamp,    ///< a scan arrived before it ended: its time stamps are wrong
+  FutureStamp,    ///< scan after scan arrived before it ended: their time stamps are wrong
   SyncPulse,      ///< sync pulses come, but not where the settings expect them
 };
 inline constexpr std::size_t kScipTroubles = 17;
