@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <ctime>
 #include <optional>
 #include <string_view>
 
@@ -131,12 +130,6 @@ std::string refusal_text(const GpioLines& lines, int error) {
            "; end that program or choose other lines";
   }
   return "the lines of " + chip + " cannot be read: " + std::strerror(error);
-}
-
-HostStamp monotonic_now_ns() {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * HostStamp{1'000'000'000} + now.tv_nsec;
 }
 
 }  // namespace stairway::drivers

@@ -33,7 +33,4 @@ tl::expected<GpioLines, std::string> find_gpio_lines(const EncoderOptions& optio
 /// What the request for lines failed with, for a person; names the program that has one of them.
 std::string refusal_text(const GpioLines& lines, int error);
 
-/// CLOCK_MONOTONIC [ns].
-HostStamp monotonic_now_ns();
-
 }  // namespace stairway::drivers

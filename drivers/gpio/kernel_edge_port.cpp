@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "drivers/gpio/line_wait.hpp"
+#include "drivers/host_clock.hpp"
 
 namespace stairway::drivers {
 namespace {

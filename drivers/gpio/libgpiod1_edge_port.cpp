@@ -11,6 +11,7 @@
 #include "drivers/gpio/edge_merger.hpp"
 #include "drivers/gpio/libgpiod_edge_port.hpp"
 #include "drivers/gpio/line_wait.hpp"
+#include "drivers/host_clock.hpp"
 
 namespace stairway::drivers {
 namespace {

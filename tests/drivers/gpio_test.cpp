@@ -10,6 +10,7 @@
 
 #include "drivers/gpio/encoder_lines.hpp"
 #include "drivers/gpio/kernel_edge_port.hpp"
+#include "drivers/host_clock.hpp"
 
 namespace stairway::test {
 namespace {

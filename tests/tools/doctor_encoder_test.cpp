@@ -13,16 +13,12 @@ namespace {
 
 using namespace drivers;
 
-const WantedLines kWanted{.chip = "gpiochip0", .a = 17, .b = 27, .index = 22};
-
 EncoderFacts good_facts() {
   return {
       .chips = {"gpiochip0"},
       .node = {.path = "/dev/gpiochip0", .exists = true, .is_usable = true, .group = "gpio", .is_open_to_group = true},
       .refusal = "",
-      .label = "pinctrl-bcm2711",
-      .line_count = 58,
-      .lines = {{17, "GPIO17", "", false}, {27, "", "", false}, {22, "", "", false}}};
+      .lines = {{"A", 17, "GPIO17", "", false}, {"B", 27, "", "", false}, {"index", 22, "", "", false}}};
 }
 
 TEST(DoctorEncoder, every_fault_has_its_words) {
@@ -33,36 +29,27 @@ TEST(DoctorEncoder, every_fault_has_its_words) {
     State state;
     const char* part;
   };
+  const auto take_a = [](const char* consumer) {
+    return [consumer](EncoderFacts& f) { f.lines[0] = {"A", 17, "", consumer, true}; };
+  };
   const Case table[] = {
       {[](auto&) {}, false, "encoder-lines", State::Ok, "A on 17 (GPIO17), B on 27, index on 22"},
       {[](auto& f) { f.chips.clear(), f.node.exists = false; }, false, "encoder", State::Failure, "no GPIO chip"},
-      {[](auto& f) { f.chips = {"gpiochip4"}, f.node.exists = false; }, false, "encoder", State::Failure, "gpiochip4"},
+      {[](auto& f) { f.node.exists = false, f.refusal = "there is gpiochip4"; }, false, "encoder", State::Failure,
+       "there is gpiochip4"},
       {[](auto& f) { f.node.group = "root"; }, false, "encoder-access", State::Failure, "60-stairway.rules"},
       {[](auto& f) { f.node.is_usable = false; }, false, "encoder-access", State::Warning, "usermod -aG gpio"},
-      {[](auto& f) { f.refusal = "Permission denied"; }, false, "encoder-lines", State::Failure, "Permission denied"},
-      {[](auto& f) { f.lines.pop_back(); }, false, "encoder-lines", State::Failure, "no line 22 for index"},
-      {[](auto& f) {
-         f.lines[0] = {17, "", "w1", true};
-       },
-       false, "encoder-lines", State::Failure, "taken by w1"},
-      {[](auto& f) {
-         f.lines[0] = {17, "", "", true};
-       },
-       false, "encoder-lines", State::Failure, "taken by the kernel"},
-      {[](auto& f) {
-         f.lines[0] = {17, "", "stairwayd", true};
-       },
-       true, "encoder-lines", State::Ok, "A on 17"},
-      {[](auto& f) {
-         f.lines[0] = {17, "", "stairwayd", true};
-       },
-       false, "encoder-lines", State::Failure, "stairwayd"},
+      {[](auto& f) { f.refusal = "no line of that name"; }, false, "encoder-lines", State::Failure, "of that name"},
+      {take_a("w1"), false, "encoder-lines", State::Failure, "taken by w1"},
+      {take_a(""), false, "encoder-lines", State::Failure, "taken by the kernel"},
+      {take_a("stairwayd"), true, "encoder-lines", State::Ok, "A on 17"},
+      {take_a("stairwayd"), false, "encoder-lines", State::Failure, "stairwayd"},
   };
   for (const Case& row : table) {
     SCOPED_TRACE(row.part);
     EncoderFacts facts = good_facts();
     row.change(facts);
-    const auto checks = judge(facts, kWanted, Caller{}, row.has_daemon);
+    const auto checks = judge(facts, Caller{}, row.has_daemon);
     const auto found =
         std::find_if(checks.begin(), checks.end(), [&](const Check& check) { return check.name == row.name; });
     ASSERT_NE(found, checks.end());
@@ -71,22 +58,22 @@ TEST(DoctorEncoder, every_fault_has_its_words) {
   }
 }
 
-TEST(DoctorEncoder, a_robot_without_encoder_lines_needs_none) {
-  const EncoderFacts facts = look_at_encoder(Machine("/nonexistent"), WantedLines{});
-  const auto checks = judge(facts, WantedLines{}, {}, false);
+TEST(DoctorEncoder, a_machine_without_gpio_is_told) {
+  const auto checks = judge(look_at_encoder(Machine("/nonexistent"), {}), {}, false);
   ASSERT_EQ(checks.size(), 1U);
-  EXPECT_EQ(checks.front().state, State::Skipped);
+  EXPECT_EQ(checks.front().state, State::Failure);
+  EXPECT_NE(checks.front().text.find("no GPIO chip"), std::string::npos);
 }
 
 TEST(DoctorEncoder, a_file_that_is_no_chip_is_told) {
   test::FakeMachine fake;
   fake.name_own_group("gpio");
   fake.node("/dev/gpiochip0", 0660);
-  const EncoderFacts facts = look_at_encoder(fake.machine(), kWanted);
+  const EncoderFacts facts = look_at_encoder(fake.machine(), {});
   EXPECT_EQ(facts.chips, std::vector<std::string>{"gpiochip0"});
   EXPECT_TRUE(facts.node.exists);
-  EXPECT_FALSE(facts.refusal.empty());
-  EXPECT_EQ(judge(facts, kWanted, {}, false).back().state, State::Failure);
+  EXPECT_NE(facts.refusal.find("not a GPIO chip"), std::string::npos) << facts.refusal;
+  EXPECT_EQ(judge(facts, {}, false).back().state, State::Failure);
 }
 
 /// Lines on which the edges are as scripted, one batch per read.
@@ -98,6 +85,7 @@ class ScriptedLines : public EdgePort {
     now_ns_ += 100'000'000;
     return EdgeBatch{edges, lost_edges, now_ns_};
   }
+  int queued_edges() const override { return 16; }
   tl::expected<LineLevels, PortError> levels() override { return LineLevels{now_ns_, true, false, false}; }
 
   std::vector<Edge> edges;

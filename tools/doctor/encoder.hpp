@@ -8,22 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "drivers/encoder/encoder_options.hpp"
 #include "drivers/ports/edge_port.hpp"
 #include "tools/doctor/check.hpp"
 #include "tools/doctor/machine.hpp"
 
 namespace stairway::doctor {
 
-/// Where the settings say that the encoder is.
-struct WantedLines {
-  std::string chip;  ///< "gpiochip0", "/dev/gpiochip0", or a chip's label; empty where there is no encoder
-  int a = 0;
-  int b = 0;
-  int index = -1;  ///< negative where there is none
-};
-
 struct LineFacts {
-  int offset = 0;
+  std::string signal;    ///< "A", "B" or "index"
+  int offset = 0;        ///< on the chip
   std::string name;      ///< as the board calls it; often empty
   std::string consumer;  ///< of the program that has it
   bool is_used = false;
@@ -32,16 +26,14 @@ struct LineFacts {
 struct EncoderFacts {
   std::vector<std::string> chips;  ///< all there are, e.g. "gpiochip0"
   NodeFacts node;                  ///< of the wanted one
-  std::string refusal;             ///< why it does not answer; empty when it does
-  std::string label;
-  int line_count = 0;
-  std::vector<LineFacts> lines;  ///< the wanted ones that the chip has
+  std::string refusal;             ///< why chip or lines are not to be had, for a person; empty when they are
+  std::vector<LineFacts> lines;    ///< of A, B and, where there is one, the index
 };
-EncoderFacts look_at_encoder(const Machine& machine, const WantedLines& wanted);
+EncoderFacts look_at_encoder(const Machine& machine, const drivers::EncoderOptions& options);
 
 /// encoder, encoder-access, encoder-lines.
 /// @param has_daemon  a stairwayd runs, so that taken lines are as they should be.
-std::vector<Check> judge(const EncoderFacts& facts, const WantedLines& wanted, const Caller& caller, bool has_daemon);
+std::vector<Check> judge(const EncoderFacts& facts, const Caller& caller, bool has_daemon);
 
 /// What the lines did while somebody looked.
 struct CountFacts {

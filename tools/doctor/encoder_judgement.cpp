@@ -10,17 +10,14 @@
 namespace stairway::doctor {
 namespace {
 
-Check judge_chip(const EncoderFacts& facts, const WantedLines& wanted) {
+Check judge_chip(const EncoderFacts& facts) {
   constexpr const char* kName = "encoder";
-  if (facts.chips.empty() && !facts.node.exists) {
+  if (facts.node.exists) return ok(kName, facts.node.path);
+  if (facts.chips.empty()) {
     return failure(kName, "no GPIO chip on this machine (/dev/gpiochip*)",
-                   "load the driver of the board's GPIO, or take the angle from the drive");
+                   "load the driver of the board's GPIO, or set disk.angle_source to drive");
   }
-  if (!facts.node.exists) {
-    return failure(kName, fmt::format("no chip {}, but {}", wanted.chip, fmt::join(facts.chips, ", ")),
-                   "change encoder.chip; gpiodetect lists their labels");
-  }
-  return ok(kName, facts.node.path + (facts.label.empty() ? "" : ", " + facts.label));
+  return failure(kName, facts.refusal, "change encoder.chip; gpiodetect lists chips and their labels");
 }
 
 Check judge_access(const EncoderFacts& facts, const Caller& caller) {
@@ -39,49 +36,32 @@ Check judge_access(const EncoderFacts& facts, const Caller& caller) {
   return ok(kName, node.path + " is open to group gpio");
 }
 
-const LineFacts* find(const EncoderFacts& facts, int offset) {
-  const auto found = std::find_if(facts.lines.begin(), facts.lines.end(),
-                                  [&](const LineFacts& line) { return line.offset == offset; });
-  return found == facts.lines.end() ? nullptr : &*found;
-}
-
-Check judge_lines(const EncoderFacts& facts, const WantedLines& wanted, bool has_daemon) {
+Check judge_lines(const EncoderFacts& facts, bool has_daemon) {
   constexpr const char* kName = "encoder-lines";
   if (!facts.refusal.empty()) {
-    return failure(kName, fmt::format("{} does not answer: {}", facts.node.path, facts.refusal),
-                   "run this as root to tell missing rights from a missing driver");
+    return failure(kName, facts.refusal, "change encoder.line_a, line_b or line_index; gpioinfo lists the lines");
   }
   std::string text;
-  for (const auto& [signal, offset] :
-       {std::pair{"A", wanted.a}, std::pair{"B", wanted.b}, std::pair{"index", wanted.index}}) {
-    if (offset < 0) continue;
-    const LineFacts* line = find(facts, offset);
-    if (line == nullptr) {
-      return failure(
-          kName,
-          fmt::format("{} has {} lines, so no line {} for {}", facts.node.path, facts.line_count, offset, signal),
-          "change encoder.line_a, line_b or line_index; gpioinfo lists them");
-    }
-    if (line->is_used && !(has_daemon && line->consumer == "stairwayd")) {
+  for (const LineFacts& line : facts.lines) {
+    if (line.is_used && !(has_daemon && line.consumer == "stairwayd")) {
       return failure(kName,
-                     fmt::format("line {} ({}) is taken by {}", offset, signal,
-                                 line->consumer.empty() ? "the kernel" : line->consumer),
+                     fmt::format("line {} ({}) is taken by {}", line.offset, line.signal,
+                                 line.consumer.empty() ? "the kernel" : line.consumer),
                      "end that program, or remove that driver or overlay from the board's set-up");
     }
-    text += fmt::format("{}{} on {}", text.empty() ? "" : ", ", signal, offset);
-    if (!line->name.empty()) text += fmt::format(" ({})", line->name);
+    text += fmt::format("{}{} on {}", text.empty() ? "" : ", ", line.signal, line.offset);
+    if (!line.name.empty()) text += fmt::format(" ({})", line.name);
   }
   return ok(kName, text);
 }
 
 }  // namespace
 
-std::vector<Check> judge(const EncoderFacts& facts, const WantedLines& wanted, const Caller& caller, bool has_daemon) {
-  if (wanted.chip.empty()) return {skipped("encoder", "the settings name no GPIO chip")};
-  std::vector<Check> checks{judge_chip(facts, wanted)};
+std::vector<Check> judge(const EncoderFacts& facts, const Caller& caller, bool has_daemon) {
+  std::vector<Check> checks{judge_chip(facts)};
   if (!facts.node.exists) return checks;
   checks.push_back(judge_access(facts, caller));
-  checks.push_back(judge_lines(facts, wanted, has_daemon));
+  checks.push_back(judge_lines(facts, has_daemon));
   return checks;
 }
 

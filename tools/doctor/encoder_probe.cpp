@@ -1,15 +1,11 @@
 // SPDX-FileCopyrightText: The stairwayd authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fcntl.h>
 #include <linux/gpio.h>
 #include <sys/ioctl.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstring>
-#include <optional>
-#include <system_error>
 
+#include "drivers/gpio/gpio_lines.hpp"
 #include "tools/doctor/encoder.hpp"
 
 namespace stairway::doctor {
@@ -17,68 +13,39 @@ namespace {
 
 using namespace drivers;
 
-struct File {
-  explicit File(const std::string& path) : fd(::open(path.c_str(), O_RDWR | O_CLOEXEC)) {}
-  ~File() {
-    if (fd >= 0) ::close(fd);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  int fd;
-};
-
-std::string last_error() { return std::generic_category().message(errno); }
-
 template <std::size_t Size>
 std::string text_of(const char (&text)[Size]) {
   return {text, ::strnlen(text, Size)};
 }
 
-std::optional<LineFacts> look_at_line(int fd, int offset) {
+LineFacts look_at_line(int chip, const char* signal, std::uint32_t offset) {
   gpio_v2_line_info info{};
-  info.offset = static_cast<std::uint32_t>(offset);
-  if (::ioctl(fd, GPIO_V2_GET_LINEINFO_IOCTL, &info) != 0) return std::nullopt;
-  return LineFacts{offset, text_of(info.name), text_of(info.consumer), (info.flags & GPIO_V2_LINE_FLAG_USED) != 0};
-}
-
-std::optional<std::string> label_of(const std::string& place) {
-  const File file(place);
-  gpiochip_info info{};
-  if (file.fd < 0 || ::ioctl(file.fd, GPIO_GET_CHIPINFO_IOCTL, &info) != 0) return std::nullopt;
-  return text_of(info.label);
-}
-
-/// The node of a chip that is named by name, path or label.
-std::string chip_path(const Machine& machine, const std::vector<std::string>& chips, const std::string& wanted) {
-  if (wanted.starts_with("/")) return wanted;
-  for (const std::string& chip : chips) {
-    if (chip != wanted && label_of(machine.path("/dev/" + chip).string()) == wanted) return "/dev/" + chip;
-  }
-  return "/dev/" + wanted;
+  info.offset = offset;
+  LineFacts facts{.signal = signal, .offset = static_cast<int>(offset)};
+  if (::ioctl(chip, GPIO_V2_GET_LINEINFO_IOCTL, &info) != 0) return facts;
+  facts.name = text_of(info.name);
+  facts.consumer = text_of(info.consumer);
+  facts.is_used = (info.flags & GPIO_V2_LINE_FLAG_USED) != 0;
+  return facts;
 }
 
 }  // namespace
 
-EncoderFacts look_at_encoder(const Machine& machine, const WantedLines& wanted) {
+EncoderFacts look_at_encoder(const Machine& machine, const EncoderOptions& options) {
   EncoderFacts facts;
   for (const std::string& name : machine.names("/dev")) {
     if (name.starts_with("gpiochip")) facts.chips.push_back(name);
   }
-  if (wanted.chip.empty()) return facts;
-  facts.node = look_at_node(machine, chip_path(machine, facts.chips, wanted.chip));
-  if (!facts.node.exists) return facts;
-  const File file(machine.path(facts.node.path).string());
-  gpiochip_info info{};
-  if (file.fd < 0 || ::ioctl(file.fd, GPIO_GET_CHIPINFO_IOCTL, &info) != 0) {
-    facts.refusal = last_error();
+  facts.node = look_at_node(machine, options.chip.starts_with('/') ? options.chip : "/dev/" + options.chip);
+  const auto lines = find_gpio_lines(options, machine.path("/dev"));
+  if (!lines) {
+    facts.refusal = lines.error();
     return facts;
   }
-  facts.label = text_of(info.label);
-  facts.line_count = static_cast<int>(info.lines);
-  for (const int offset : {wanted.a, wanted.b, wanted.index}) {
-    if (offset < 0) continue;
-    if (auto line = look_at_line(file.fd, offset)) facts.lines.push_back(std::move(*line));
-  }
+  if (!facts.node.exists) facts.node = look_at_node(machine, "/dev/" + lines->path.filename().string());
+  constexpr const char* kSignals[] = {"A", "B", "index"};
+  for (std::size_t i = 0; i < lines->offsets.size(); ++i)
+    facts.lines.push_back(look_at_line(lines->chip.get(), kSignals[i], lines->offsets[i]));
   return facts;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/encoder/encoder_options.hpp"
 #include "drivers/ports/byte_port.hpp"
 #include "drivers/ports/can_port.hpp"
 #include "drivers/ports/edge_port.hpp"
@@ -15,7 +16,6 @@
 #include "drivers/scip/scip_options.hpp"
 #include "ipc/channels.hpp"
 #include "tools/doctor/check.hpp"
-#include "tools/doctor/encoder.hpp"
 #include "tools/doctor/machine.hpp"
 #include "tools/doctor/scanner.hpp"
 
@@ -27,7 +27,7 @@ struct Robot {
   drivers::ScipOptions lidar;
   std::string can_interface = "can0";
   int drive_node = 1;
-  WantedLines encoder;
+  std::optional<drivers::EncoderOptions> encoder;  ///< empty where the drive tells the angle
   ipc::BusOptions lcm;
 };
 

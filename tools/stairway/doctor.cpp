@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "drivers/can/socket_can_port.hpp"
+#include "drivers/gpio/encoder_lines.hpp"
 #include "drivers/host_clock.hpp"
 #include "drivers/usb/usb_scanner_opener.hpp"
 #include "tools/doctor/examination.hpp"
@@ -42,12 +43,19 @@ doctor::Check judge_settings(const std::vector<std::string>& files,
   return doctor::ok(kName, fmt::format("in order: {}", fmt::join(files, ", ")));
 }
 
+bool has_encoder(const config::Settings& settings) {
+  return settings.disk.angle_source == drivers::AngleSource::Encoder;
+}
+
 doctor::Robot robot_of(const config::Settings& settings) {
-  return {.scanner = {.serial = settings.lidar.serial, .port = settings.usb.port},
-          .lidar = settings.lidar,
-          .can_interface = settings.motor.interface,
-          .drive_node = settings.motor.node_id,
-          .lcm = settings.lcm};
+  doctor::Robot robot{.scanner = {.serial = settings.lidar.serial, .port = settings.usb.port},
+                      .lidar = settings.lidar,
+                      .can_interface = settings.motor.interface,
+                      .drive_node = settings.motor.node_id,
+                      .encoder = {},
+                      .lcm = settings.lcm};
+  if (has_encoder(settings)) robot.encoder = settings.encoder;
+  return robot;
 }
 
 doctor::Ports ports_of(const config::Settings& settings) {
@@ -58,6 +66,7 @@ doctor::Ports ports_of(const config::Settings& settings) {
   doctor::Ports ports;
   ports.scanner = drivers::usb_scanner_opener(settings.usb, settings.lidar.serial);
   ports.can = [can] { return drivers::open_socket_can(can); };
+  if (has_encoder(settings)) ports.encoder = [&settings] { return drivers::open_encoder_lines(settings.encoder); };
   ports.now = drivers::monotonic_now_ns;
   return ports;
 }
