@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "drivers/ports/open_when_due.hpp"
+
 namespace stairway::drivers {
 namespace {
 
@@ -12,10 +14,6 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kLongestRead = std::chrono::milliseconds(50);  // the period in which a rest is told
 constexpr const char* kLost = "the encoder's GPIO lines went away";
-
-void append(std::vector<EncoderEvent>& events, std::vector<EncoderEvent> more) {
-  std::ranges::move(more, std::back_inserter(events));
-}
 
 }  // namespace
 
@@ -34,13 +32,8 @@ std::vector<EncoderEvent> DiskEncoder::poll(nanoseconds timeout) {
 }
 
 std::vector<EncoderEvent> DiskEncoder::open(nanoseconds timeout) {
-  if (const HostStamp now_ns = now_(); session_.deadline() > now_ns) {
-    if (opener_.wait(std::min(timeout, nanoseconds(session_.deadline() - now_ns)))) session_.retry_now(now_());
-    return {};
-  }
-  auto port = opener_.open();
-  if (!port) return session_.on_disconnect(now_(), port.error());
-  port_ = std::move(*port);
+  std::vector<EncoderEvent> events = open_when_due(port_, opener_, session_, now_, timeout);
+  if (!port_) return events;
   const auto levels = port_->levels();
   return levels ? session_.on_open(*levels, port_->queued_edges()) : lose_port();
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "drivers/ports/open_when_due.hpp"
+
 namespace stairway::drivers {
 namespace {
 
@@ -12,15 +14,6 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kStopPoll = std::chrono::milliseconds(20);
 constexpr HostStamp kStopMargin_ns = 5'000'000'000;
-
-nanoseconds time_until(HostStamp deadline_ns, HostStamp now_ns, nanoseconds limit) {
-  if (deadline_ns <= now_ns) return nanoseconds::zero();
-  return std::min(limit, nanoseconds(deadline_ns - now_ns));
-}
-
-void append(std::vector<MotorEvent>& events, std::vector<MotorEvent> more) {
-  std::ranges::move(more, std::back_inserter(events));
-}
 
 const char* describe(PortError error) {
   return error == PortError::Closed ? "the CAN interface was removed" : "the CAN interface failed";

@@ -7,19 +7,12 @@
 #include <utility>
 #include <variant>
 
+#include "drivers/ports/open_when_due.hpp"
+
 namespace stairway::drivers {
 namespace {
 
 using std::chrono::nanoseconds;
-
-nanoseconds time_until(HostStamp deadline_ns, HostStamp now_ns, nanoseconds limit) {
-  if (deadline_ns <= now_ns) return nanoseconds::zero();
-  return std::min(limit, nanoseconds(deadline_ns - now_ns));
-}
-
-void append(std::vector<ScipEvent>& events, std::vector<ScipEvent> more) {
-  std::ranges::move(more, std::back_inserter(events));
-}
 
 const char* describe(PortError error) { return error == PortError::Closed ? "port closed" : "port failed"; }
 
@@ -53,14 +46,9 @@ std::vector<ScipEvent> Utm30lx::poll(nanoseconds timeout) {
 }
 
 std::vector<ScipEvent> Utm30lx::open(nanoseconds timeout) {
-  if (const nanoseconds wait = time_until(session_.deadline(), now_(), timeout); wait > nanoseconds::zero()) {
-    if (opener_.wait(wait)) session_.retry_now(now_());
-    return {};
-  }
-  auto port = opener_.open();
-  if (!port) return session_.on_disconnect(now_(), port.error());
-  port_ = std::move(*port);
-  std::vector<ScipEvent> events = session_.on_time(now_());
+  std::vector<ScipEvent> events = open_when_due(port_, opener_, session_, now_, timeout);
+  if (!port_) return events;
+  append(events, session_.on_time(now_()));
   send_output(events);
   return events;
 }

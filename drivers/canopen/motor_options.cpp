@@ -6,27 +6,17 @@
 #include <cmath>
 #include <limits>
 
+#include "drivers/option_range.hpp"
+
 namespace stairway::drivers {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-struct Range {
-  const char* name;
-  double value, low, high;
-};
-
-std::string text(double value) {
-  std::string out = std::to_string(value);
-  out.erase(out.find_last_not_of('0') + 1);
-  if (out.back() == '.') out.pop_back();
-  return out;
-}
-
 }  // namespace
 
 std::string MotorOptions::problem() const {
-  const Range ranges[] = {
+  const OptionRange ranges[] = {
       {"node_id", static_cast<double>(node_id), 1, 127},
       {"host_node_id", static_cast<double>(host_node_id), 1, 127},
       {"counts_per_turn", counts_per_turn, 1, 1e12},
@@ -53,10 +43,7 @@ std::string MotorOptions::problem() const {
   if (interface.empty() || interface.size() > 15 || interface.find_first_of("/ \t\n") != std::string::npos) {
     return "interface must be the name of a network interface like can0";
   }
-  for (const Range& range : ranges) {
-    if (range.value >= range.low && range.value <= range.high) continue;
-    return std::string(range.name) + " must lie between " + text(range.low) + " and " + text(range.high);
-  }
+  if (auto problem = range_problem(ranges); !problem.empty()) return problem;
   if (node_id == host_node_id) return "node_id and host_node_id must differ";
   return {};
 }

@@ -6,15 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivers/option_range.hpp"
+
 namespace stairway::drivers {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-struct Range {
-  const char* name;
-  double value, low, high;
-};
 
 bool overloads_sensor(const ScipOptions& options) {
   constexpr double kFieldOfView_rad = 1.5 * kPi;
@@ -23,17 +20,10 @@ bool overloads_sensor(const ScipOptions& options) {
   return options.skip_scan == 0 && window_rad > kBearable_rad * options.cluster;
 }
 
-std::string text(double value) {
-  std::string out = std::to_string(value);
-  out.erase(out.find_last_not_of('0') + 1);
-  if (out.back() == '.') out.pop_back();
-  return out;
-}
-
 }  // namespace
 
 std::string ScipOptions::problem() const {
-  const Range ranges[] = {
+  const OptionRange ranges[] = {
       {"cluster", static_cast<double>(cluster), 1.0, 99.0},
       {"skip_scan", static_cast<double>(skip_scan), 0.0, 9.0},
       {"time_readings", static_cast<double>(time_readings), 1.0, 100.0},
@@ -54,10 +44,7 @@ std::string ScipOptions::problem() const {
   if (!(min_angle_rad >= -kPi && min_angle_rad < max_angle_rad && max_angle_rad <= kPi)) {
     return "the scan window needs -180 <= min_angle < max_angle <= 180 degrees";
   }
-  for (const Range& range : ranges) {
-    if (range.value >= range.low && range.value <= range.high) continue;
-    return std::string(range.name) + " must lie between " + text(range.low) + " and " + text(range.high);
-  }
+  if (auto problem = range_problem(ranges); !problem.empty()) return problem;
   if (intensities && !force_intensities && overloads_sensor(*this)) {
     return "intensities overload the sensor at this window: use cluster 3, skip_scan 1, at most 95 degrees, or "
            "force_intensities";

@@ -18,6 +18,7 @@
 #include "drivers/gpio/encoder_lines.hpp"
 #include "drivers/gpio/gpio_lines.hpp"
 #include "drivers/gpio/libgpiod_edge_port.hpp"
+#include "drivers/host_clock.hpp"
 
 namespace {
 
