@@ -49,6 +49,17 @@ TEST_F(LoadSettings, without_sources_gives_the_defaults) {
   EXPECT_TRUE(loaded->origins.empty());
 }
 
+TEST_F(LoadSettings, the_daemons_files_are_the_named_one_and_then_conf_d_by_name) {
+  const auto main_file = file("robot.toml", "");
+  std::filesystem::create_directories(folder_ / "conf.d");
+  file("conf.d/20-mount.toml", "");
+  file("conf.d/10-lidar.toml", "");
+  file("conf.d/notes.txt", "");
+  EXPECT_EQ(usual_files(main_file), (std::vector<std::filesystem::path>{main_file, folder_ / "conf.d/10-lidar.toml",
+                                                                        folder_ / "conf.d/20-mount.toml"}));
+  EXPECT_EQ(usual_files(folder_ / "other/absent.toml").size(), 1U) << "so that its absence is told";
+}
+
 TEST_F(LoadSettings, converts_units_once) {
   const auto loaded = load_settings({{file("a.toml",
                                            "[mount]\nscan_plane_pitch_deg = -60\ndisk_z_mm = 512.5\n"
