@@ -47,7 +47,7 @@ class Listener {
 };
 
 std::string with_troubles(std::string text, const ScannerAnswer& answer) {
-  if (!answer.troubles.empty()) text += ": " + answer.troubles.back();
+  if (!answer.troubles.empty()) text += ": " + answer.troubles.front();
   return text;
 }
 
