@@ -5,9 +5,10 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <regex>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tests/config/command.hpp"
@@ -26,15 +27,40 @@ struct Term {
 using Rule = std::vector<Term>;
 using Properties = std::map<std::string, std::string>;
 
+/// Takes as many of these characters as the text begins with.
+std::string take_while(std::string_view& text, std::string_view characters) {
+  const std::string taken(text.substr(0, text.find_first_not_of(characters)));
+  text.remove_prefix(taken.size());
+  return taken;
+}
+
+/// One term of a rule like `ATTR{idVendor}=="15d1"`, taken off the text; empty when it does not begin with one.
+std::optional<Term> take_term(std::string_view& text) {
+  static constexpr std::string_view kKey = "ABCDEFGHIJKLMNOPQRSTUVWXYZ_{}abcdefghijklmnopqrstuvwxyz";
+  Term term;
+  take_while(text, " ");
+  term.key = take_while(text, kKey);
+  term.op = take_while(text, "=!+:");
+  const bool is_known = term.op == "==" || term.op == "!=" || term.op == "+=" || term.op == ":=" || term.op == "=";
+  if (term.key.empty() || !is_known || !text.starts_with('"')) return std::nullopt;
+  text.remove_prefix(1);
+  const std::size_t end = text.find('"');
+  if (end == std::string_view::npos) return std::nullopt;
+  term.value = text.substr(0, end);
+  text.remove_prefix(end + 1);
+  take_while(text, " ");
+  if (!text.empty() && !text.starts_with(',')) return std::nullopt;
+  text.remove_prefix(text.empty() ? 0 : 1);
+  return term;
+}
+
 /// The terms of a rule; empty when something in it is no term.
-std::optional<Rule> parse_rule(const std::string& line) {
-  static const std::regex kTerm(R"re(\s*([A-Z_]+(?:\{[A-Za-z_]+\})?)(==|!=|\+=|:=|=)"([^"]*)"\s*(,|$))re");
+std::optional<Rule> parse_rule(std::string_view line) {
   Rule rule;
-  for (auto at = line.begin(); at != line.end();) {
-    std::smatch found;
-    if (!std::regex_search(at, line.end(), found, kTerm, std::regex_constants::match_continuous)) return std::nullopt;
-    rule.push_back({found[1], found[2], found[3]});
-    at = found[0].second;
+  while (!line.empty()) {
+    auto term = take_term(line);
+    if (!term) return std::nullopt;
+    rule.push_back(std::move(*term));
   }
   return rule;
 }
