@@ -66,7 +66,8 @@ void add_disk_settings(std::vector<Entry>& table, drivers::DiskOptions& disk) {
       .real("idle_after", disk.idle_after_s, kSecond, {0, 86400},
             "how long the disk goes on turning without scans or encoder")
       .real("check_speed", disk.check_speed_rad_s, kDegreePerSecond, {0.1, 500}, "of the self check before it turns")
-      .real("check_window", disk.check_window_s, kSecond, {0.1, 60}, "over which speeds are compared")
+      .real("check_window", disk.check_window_s, kSecond, {0.1, 60},
+            "over which speeds are compared; the encoder should count ten at least")
       .real("settle", disk.settle_s, kSecond, {0, 60}, "a speed is left alone for so long after its ramp")
       .real("check_tolerance", disk.check_tolerance, kPlain, {0.01, 0.9},
             "share by which command, drive and encoder may differ in the self check")

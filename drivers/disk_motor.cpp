@@ -39,15 +39,8 @@ std::vector<MotorEvent> DiskMotor::poll(nanoseconds timeout) {
 }
 
 std::vector<MotorEvent> DiskMotor::open(nanoseconds timeout) {
-  if (const nanoseconds wait = time_until(session_.deadline(), now_(), timeout); wait > nanoseconds::zero()) {
-    if (opener_.wait(wait)) session_.retry_now(now_());
-    return {};
-  }
-  auto port = opener_.open();
-  if (!port) return session_.on_disconnect(now_(), port.error());
   // What the port has to tell about its bus comes before the first frame is sent.
-  port_ = std::move(*port);
-  return {};
+  return open_when_due(port_, opener_, session_, now_, timeout);
 }
 
 void DiskMotor::send_output(std::vector<MotorEvent>& events) {

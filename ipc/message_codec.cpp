@@ -58,7 +58,9 @@ bool has_layout(std::span<const std::uint8_t> bytes, const health_t*) {
   MessageWalker walker(bytes);
   walker.skip(kFingerprint + kWord).text().skip(5 * kWord);
   const std::size_t drops = walker.count();
-  return walker.texts(drops).skip(drops * kWord).ends_here();
+  walker.texts(drops).skip(drops * kWord);
+  const std::size_t devices = walker.count();
+  return walker.texts(devices).texts(devices).skip(devices * (1 + 2 * kWord)).skip(5 * kWord).ends_here();
 }
 
 bool has_layout(std::span<const std::uint8_t> bytes, const settings_t*) {
@@ -100,6 +102,7 @@ static_assert(scan_t::INVALID == static_cast<int>(drivers::BeamStatus::Invalid))
 static_assert(scan_t::NO_RETURN == static_cast<int>(drivers::BeamStatus::NoReturn));
 static_assert(disk_t::FAULT_ENCODER == static_cast<int>(DiskFault::Encoder));
 static_assert(disk_t::FAULT_MOTOR == static_cast<int>(DiskFault::Motor));
+static_assert(disk_t::FAULT_DISK == static_cast<int>(DiskFault::Disk));
 static_assert(stairway_t::SPIRAL == static_cast<int>(detect::StairwayKind::Spiral));
 static_assert(stairway_t::DESCENDING == static_cast<int>(detect::StairwayDirection::Descending));
 static_assert(stairway_t::MIDDLE == static_cast<int>(detect::AnchorSide::Middle));
@@ -272,7 +275,7 @@ template <>
 tl::expected<DiskMessage, MessageFault> decode<DiskMessage>(std::span<const std::uint8_t> bytes) {
   const auto wire = from_bytes<disk_t>(bytes);
   if (!wire) return tl::unexpected(wire.error());
-  const auto fault = enumerator(wire->fault, DiskFault::Motor);
+  const auto fault = enumerator(wire->fault, DiskFault::Disk);
   if (!fault) return tl::unexpected(MessageFault::ImpossibleValue);
   DiskMessage message;
   message.utime_us = wire->utime;
@@ -334,6 +337,19 @@ Bytes encode(const HealthMessage& message) {
     wire.drop_names.push_back(name);
     wire.drop_counts.push_back(count);
   }
+  wire.num_devices = static_cast<std::int32_t>(message.devices.size());
+  for (const DeviceHealth& device : message.devices) {
+    wire.device_names.push_back(device.name);
+    wire.device_states.push_back(device.state);
+    wire.device_ok.push_back(device.is_ok);
+    wire.device_age_s.push_back(device.data_age_s);
+    wire.device_troubles.push_back(device.troubles);
+  }
+  wire.clock_period_ms = message.clock.period_ms;
+  wire.clock_delay_ms = message.clock.delay_ms;
+  wire.clock_residual_ms = message.clock.residual_ms;
+  wire.clock_drift_ppm = message.clock.drift_ppm;
+  wire.clock_resets = message.clock.resets;
   return to_bytes(wire);
 }
 
@@ -352,6 +368,12 @@ tl::expected<HealthMessage, MessageFault> decode<HealthMessage>(std::span<const 
   for (std::size_t i = 0; i < wire->drop_names.size(); ++i) {
     message.drops.emplace_back(wire->drop_names[i], wire->drop_counts[i]);
   }
+  for (std::size_t i = 0; i < wire->device_names.size(); ++i) {
+    message.devices.push_back({wire->device_names[i], wire->device_states[i], wire->device_ok[i] != 0,
+                               wire->device_age_s[i], wire->device_troubles[i]});
+  }
+  message.clock = {wire->clock_period_ms, wire->clock_delay_ms, wire->clock_residual_ms, wire->clock_drift_ppm,
+                   wire->clock_resets};
   return message;
 }
 

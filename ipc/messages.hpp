@@ -23,7 +23,7 @@ struct ScanMessage {
   bool disk_angle_valid = false;
 };
 
-enum class DiskFault { None, Encoder, Motor };
+enum class DiskFault { None, Encoder, Motor, Disk };
 
 /// disk_t
 struct DiskMessage {
@@ -45,6 +45,28 @@ struct StairwaysMessage {
   std::vector<std::int64_t> track_ids;  ///< one per stairway; missing ones count as 0, not tracked
 };
 
+/// A device in health_t.
+struct DeviceHealth {
+  std::string name;
+  std::string state;
+  bool is_ok = false;
+  double data_age_s = -1.0;  ///< since its last data [s]; negative: there were none
+  std::int64_t troubles = 0;
+
+  bool operator==(const DeviceHealth&) const = default;
+};
+
+/// The scanner's clock in health_t; all zero before there are scans.
+struct ClockHealth {
+  double period_ms = 0.0;    ///< measured time from scan to scan [ms]
+  double delay_ms = 0.0;     ///< mean lateness of the arrivals [ms]
+  double residual_ms = 0.0;  ///< RMS of the device's stamps about the mapping [ms]
+  double drift_ppm = 0.0;    ///< host seconds per device second, less one [1e-6]
+  std::int64_t resets = 0;   ///< mappings begun anew
+
+  bool operator==(const ClockHealth&) const = default;
+};
+
 /// health_t
 struct HealthMessage {
   std::int64_t utime_us = 0;
@@ -55,6 +77,8 @@ struct HealthMessage {
   double disk_rate_hz = 0.0;
   std::int64_t points = 0;
   std::vector<std::pair<std::string, std::int64_t>> drops;
+  std::vector<DeviceHealth> devices;
+  ClockHealth clock;
 };
 
 /// settings_t

@@ -179,7 +179,12 @@ void SweepAssembler::append_run(std::size_t begin, std::size_t end) {
 }
 
 void SweepAssembler::follow_turn(double angle_rad, HostStamp stamp_ns) {
-  if (!turn_) turn_ = first_turn(angle_rad);
+  if (!turn_) {
+    turn_ = first_turn(angle_rad);
+    // What came before the first angle is in no sweep.
+    const BeamCounts& beams = sweep_->statistics.beams;
+    if (beams.no_angle + beams.angle_invalid > 0) sweep_->begin_ns = stamp_ns;
+  }
   if (turn_->contains(angle_rad)) return;
   const Direction direction = angle_rad >= turn_->high_rad ? Direction::Up : Direction::Down;
   const double boundary_rad = direction == Direction::Up ? turn_->high_rad : turn_->low_rad;

@@ -55,7 +55,7 @@ struct SweepStatistics {
 /// One turn of the disk. `cloud.points`, `lines` and `beams` belong together; points stand in the order of measurement.
 struct Sweep {
   std::uint64_t number = 0;          ///< counts from 0
-  drivers::HostStamp begin_ns = 0;   ///< first beam of its first scan [ns]
+  drivers::HostStamp begin_ns = 0;   ///< its first beam; the first sweep begins with the first disk angle [ns]
   drivers::HostStamp end_ns = 0;     ///< last beam of its last scan [ns]
   PointCloud cloud;                  ///< `base` frame; `sensor_origin` = the mean place of the scanner
   std::vector<std::uint32_t> lines;  ///< mirror turn of the point, 0 = the first of the sweep, lost ones counted

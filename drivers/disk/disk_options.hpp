@@ -22,8 +22,8 @@ struct DiskOptions {
   double idle_after_s = 60.0;   ///< how long the disk goes on turning without scans or without encoder [s], 0..86400
 
   double check_speed_rad_s = std::numbers::pi / 30.0;  ///< of the self check before the first turn [rad/s], 0.001..10
-  double check_window_s = 2.0;                         ///< over which speeds are compared [s], 0.1..60
-  double settle_s = 0.5;                               ///< a speed is left alone after its ramp [s], 0..60
+  double check_window_s = 1.0;                         ///< over which speeds are compared [s], 0.1..60
+  double settle_s = 0.3;                               ///< a speed is left alone after its ramp [s], 0..60
   double check_tolerance = 0.2;                        ///< by which speeds may differ in the self check, 0.01..0.9
   double slip_tolerance = 0.1;                         ///< likewise while the disk turns, 0.01..0.9
   double standing_speed_rad_s =

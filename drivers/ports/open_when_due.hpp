@@ -31,8 +31,8 @@ void append(std::vector<Event>& events, std::vector<Event> more) {
 template <class Port, class Session, class Clock>
 auto open_when_due(std::unique_ptr<Port>& port, PortOpener<Port>& opener, Session& session, const Clock& now,
                    std::chrono::nanoseconds timeout) -> decltype(session.on_disconnect(now(), {})) {
-  if (const auto wait = time_until(session.deadline(), now(), timeout); wait > std::chrono::nanoseconds::zero()) {
-    if (opener.wait(wait)) session.retry_now(now());
+  if (const HostStamp now_ns = now(); session.deadline() > now_ns) {
+    if (opener.wait(time_until(session.deadline(), now_ns, timeout))) session.retry_now(now());
     return {};
   }
   auto opened = opener.open();

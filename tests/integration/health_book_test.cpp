@@ -28,7 +28,7 @@ scan::AngleTrack turning_track(double end_rad, double direction) {
 
 TEST(HealthBook, rates_are_those_since_the_last_report) {
   HealthBook book(kStart);
-  book.note({true, "streaming"});
+  book.note({Device::Scanner, Condition::Good, "streaming"});
   for (int i = 0; i < 40; ++i) book.note_scan(scan_with(3));
   book.note_angles(117, turning_track(1.0, 1.0));
   const ipc::HealthMessage first = book.report(kStart + 2s, 5);
@@ -43,9 +43,13 @@ TEST(HealthBook, rates_are_those_since_the_last_report) {
 TEST(HealthBook, state_names_the_part_that_is_silent) {
   HealthBook book(kStart);
   EXPECT_EQ(book.report(kStart, 0).state, "starting");
-  book.note({false, "scanner backoff"});
-  EXPECT_EQ(book.report(kStart, 0).state, "scanner backoff");
-  book.note({true, "scanner streaming"});
+  book.note({Device::Scanner, Condition::Starting, "opening"});
+  book.note({Device::Motor, Condition::Starting, "searching"});
+  EXPECT_EQ(book.report(kStart, 0).state, "scanner: opening; disk motor: searching");
+  book.note({Device::Motor, Condition::Failed, "can0 is down"});
+  EXPECT_EQ(book.report(kStart, 0).state, "disk motor: can0 is down") << "what has failed hides what only starts";
+  book.note({Device::Motor, Condition::Good, "running"});
+  book.note({Device::Scanner, Condition::Good, "streaming"});
   EXPECT_EQ(book.report(kStart, 0).state, "no scans arrive");
   book.note_scan(scan_with(1));
   EXPECT_EQ(book.report(kStart, 0).state, "no disk angles arrive");
@@ -54,6 +58,28 @@ TEST(HealthBook, state_names_the_part_that_is_silent) {
   lost.add({0, 0.0, false});
   book.note_angles(1, lost);
   EXPECT_EQ(book.report(kStart, 0).state, "waiting for the disk's index");
+  book.note_stop();
+  EXPECT_EQ(book.report(kStart, 0).state, "stopped");
+}
+
+TEST(HealthBook, every_device_is_told_with_the_age_of_its_data_and_its_troubles) {
+  HealthBook book(kStart);
+  book.note({Device::Scanner, Condition::Good, "streaming"});
+  book.note({Device::Encoder, Condition::Failed, "no such chip"});
+  book.note_sign(Device::Scanner, kStart + 1s);
+  book.count_trouble({Device::Encoder, "encoder: disconnected", "no such chip"});
+  book.count_trouble({Device::Encoder, "encoder: disconnected", "no such chip"});
+  book.count_trouble({std::nullopt, "measurements dropped", ""});
+  book.note(drivers::ClockQuality{.period_ms = 25.1, .mean_delay_ms = 0.5, .resets = 2});
+  const ipc::HealthMessage health = book.report(kStart + 3s, 0);
+  const std::vector<ipc::DeviceHealth> expected{{"scanner", "streaming", true, 2.0, 0},
+                                                {"encoder", "no such chip", false, -1.0, 2}};
+  EXPECT_EQ(health.devices, expected);
+  EXPECT_EQ(health.clock.period_ms, 25.1);
+  EXPECT_EQ(health.clock.resets, 2);
+  const std::vector<std::pair<std::string, std::int64_t>> drops{{"encoder: disconnected", 2},
+                                                                {"measurements dropped", 1}};
+  EXPECT_EQ(health.drops, drops);
 }
 
 TEST(HealthBook, progress_is_the_share_of_the_turn_in_either_direction) {

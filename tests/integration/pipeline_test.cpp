@@ -21,7 +21,7 @@ constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 // A disk that turns once in 40 scans, with scans of 100 beams that see a wall around the scanner.
 std::vector<SourceEvent> turning_events(int scans) {
-  std::vector<SourceEvent> events{SourceState{true, "playing"}};
+  std::vector<SourceEvent> events{SourceState{Device::Scanner, Condition::Good, "playing"}};
   for (int i = 0; i <= scans; ++i) {
     const std::int64_t stamp_ns = i * kScanPeriod_ns;
     events.emplace_back(std::vector{drivers::AngleSample{stamp_ns, kTurn_rad * i / 40.0, true}});
@@ -166,6 +166,26 @@ TEST_F(PipelineTest, stop_ends_the_source_and_tells_it) {
   EXPECT_EQ(outbox.sent<ipc::HealthMessage>(kChannels.health).back().state, "stopped");
 }
 
+TEST_F(PipelineTest, fault_of_the_disk_is_told_at_once_and_with_every_angle_until_it_is_over) {
+  std::vector<SourceEvent> events = turning_events(8);
+  events.emplace_back(SourceState{Device::Encoder, Condition::Failed, "edges were lost", 8 * kScanPeriod_ns});
+  events.emplace_back(SourceState{Device::Motor, Condition::Failed, "fault", 8 * kScanPeriod_ns});
+  events.emplace_back(std::vector{drivers::AngleSample{12 * kScanPeriod_ns, 1.0, false}});
+  events.emplace_back(SourceState{Device::Encoder, Condition::Good, "indexed", 13 * kScanPeriod_ns});
+  events.emplace_back(SourceState{Device::Motor, Condition::Good, "running", 14 * kScanPeriod_ns});
+  const auto pipeline = start(std::move(events));
+  const auto disks = [&] { return outbox.sent<ipc::DiskMessage>(kChannels.disk); };
+  ASSERT_TRUE(comes_true([&] { return disks().size() == 7; }));
+  const auto sent = disks();
+  EXPECT_EQ(sent[2].fault, ipc::DiskFault::None);
+  EXPECT_EQ(sent[3].fault, ipc::DiskFault::Encoder);
+  EXPECT_EQ(sent[3].fault_text, "edges were lost");
+  EXPECT_EQ(sent[4].fault, ipc::DiskFault::Encoder);
+  EXPECT_EQ(sent[5].fault, ipc::DiskFault::Motor);
+  EXPECT_EQ(sent[6].fault, ipc::DiskFault::None);
+  EXPECT_EQ(sent[6].fault_text, "");
+}
+
 TEST_F(PipelineTest, settings_go_out_with_the_first_report_and_after_a_change) {
   const auto pipeline = start({});
   for (int i = 0; i < 3; ++i) pipeline->report();
@@ -180,8 +200,8 @@ TEST_F(PipelineTest, settings_go_out_with_the_first_report_and_after_a_change) {
 }
 
 TEST_F(PipelineTest, troubles_are_counted_by_name_and_what_cannot_be_sent_too) {
-  std::vector<SourceEvent> events{SourceTrouble{"scanner: corrupt message", "sum"},
-                                  SourceTrouble{"scanner: corrupt message", "sum"}};
+  const SourceTrouble trouble{Device::Scanner, "scanner: corrupt message", "sum"};
+  std::vector<SourceEvent> events{trouble, trouble};
   const auto refuse = [](const std::string&, std::span<const std::uint8_t>) { return false; };
   Pipeline pipeline(config::Settings{}, std::make_unique<ScriptedSource>(std::move(events), is_stopped), refuse);
   EXPECT_TRUE(comes_true([&] {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tools/sim/scene_file.hpp"
 
 namespace stairway::daemon {
@@ -35,20 +37,30 @@ Measured read_scans(SimulatedSource& source, std::size_t scans) {
   return measured;
 }
 
-TEST(SimulatedSource, disk_starts_from_rest_at_its_index_when_the_scanner_streams) {
+TEST(SimulatedSource, disk_rests_until_the_scanner_streams_and_reaches_its_index_at_full_speed) {
   for (const double period_s : {6.0, -6.0}) {
     SCOPED_TRACE(period_s);
     SimulatedSource source(fast(period_s), 0);
-    const Measured measured = read_scans(source, 40);
-    ASSERT_EQ(measured.scans.size(), 40u);
+    const Measured measured = read_scans(source, 200);
+    ASSERT_EQ(measured.scans.size(), 200u);
     const drivers::HostStamp streaming_ns = measured.scans.front().first_beam_stamp_ns;
+    const double start_rad = measured.angles.front().angle_rad;
+    const drivers::AngleSample* before = nullptr;
     for (const drivers::AngleSample& sample : measured.angles) {
-      EXPECT_TRUE(sample.valid);
       if (sample.stamp_ns < streaming_ns - 100'000'000) {
-        EXPECT_EQ(sample.angle_rad, 0.0);
+        EXPECT_EQ(sample.angle_rad, start_rad);
       }
+      if (sample.valid) break;
+      before = &sample;
     }
-    EXPECT_GT(measured.angles.back().angle_rad * period_s, 0.0);
+    ASSERT_TRUE(measured.angles.back().valid);
+    ASSERT_NE(before, nullptr);
+    const drivers::AngleSample& first = *(before + 1);
+    const drivers::AngleSample& later = *(before + 100);
+    const double speed_rad_s =
+        1e9 * (later.angle_rad - first.angle_rad) / static_cast<double>(later.stamp_ns - first.stamp_ns);
+    EXPECT_NEAR(speed_rad_s, 2.0 * M_PI / period_s, 0.01);
+    EXPECT_NEAR(std::remainder(first.angle_rad, 2.0 * M_PI), 0.0, 0.01);
   }
 }
 
@@ -63,7 +75,7 @@ TEST(SimulatedSource, angles_are_known_when_their_scan_comes) {
       const auto* scan = std::get_if<drivers::LaserScan>(&event);
       if (scan == nullptr) continue;
       ++scans;
-      EXPECT_LE(scan->first_beam_stamp_ns, newest_ns);
+      EXPECT_LE(scan->first_beam_stamp_ns, newest_ns + 50'000'000) << "at rest an angle is repeated every 50 ms";
     }
   }
   EXPECT_EQ(scans, 40);

@@ -26,8 +26,7 @@ using namespace std::chrono_literals;
 constexpr auto kPatience = 200s;
 
 std::vector<std::string> quick(const std::string& scene, std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments{"--simulate=" + scene, "--set", "simulate.speed=0", "--set",
-                                     "disk.period_s=6"};
+  std::vector<std::string> arguments{"--simulate=" + scene, "--set", "simulate.speed=0", "--set", "disk.period_s=6"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -229,10 +228,22 @@ TEST(StairwaydSettings, good_ones_are_said_to_be_in_order) {
   EXPECT_EQ(daemon.output(), "the settings are in order\n");
 }
 
-TEST(StairwaydSettings, without_hardware_support_it_says_what_is_missing) {
-  DaemonProcess daemon({});
-  EXPECT_EQ(daemon.wait(kPatience), 1);
-  EXPECT_NE(daemon.output().find("--simulate"), std::string::npos) << daemon.output();
+TEST_F(Stairwayd, without_any_device_it_says_what_is_missing_and_goes_on_until_it_is_stopped) {
+  Listener listener;
+  DaemonProcess daemon({"--set", "motor.interface=nocan0", "--set", "encoder.chip=nochip"});
+  const auto has_named_all = [](const Listener& heard) {
+    if (heard.healths.empty() || heard.healths.back().devices.size() < 4) return false;
+    const std::string& state = heard.healths.back().state;
+    return state.find("scanner: ") != std::string::npos && state.find("disk motor: ") != std::string::npos &&
+           state.find("encoder: ") != std::string::npos;
+  };
+  EXPECT_TRUE(listener.listen(20s, has_named_all));
+  for (const ipc::DeviceHealth& device : listener.healths.back().devices) {
+    EXPECT_EQ(device.is_ok, device.name == "disk") << device.name << ": " << device.state;
+    EXPECT_LT(device.data_age_s, 0.0);
+  }
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait(5s), 0);
 }
 
 }  // namespace

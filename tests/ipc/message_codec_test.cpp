@@ -10,7 +10,16 @@ namespace stairway::ipc {
 namespace {
 
 const DiskMessage kDisk{1, {2, -3.5, true}, 0.18, 12, DiskFault::Motor, "drive silent for 1.2 s"};
-const HealthMessage kHealth{1, "scanning", 3, 0.25, 40.0, 1000.0, 123456, {{"no-return", 77}, {"late", 0}}};
+const HealthMessage kHealth{1,
+                            "scanning",
+                            3,
+                            0.25,
+                            40.0,
+                            1000.0,
+                            123456,
+                            {{"no-return", 77}, {"late", 0}},
+                            {{"scanner", "streaming", true, 0.02, 3}, {"encoder", "no chip", false, -1.0, 7}},
+                            {25.01, 0.7, 0.3, -12.5, 2}};
 const SettingsMessage kSettings{1, "0.1.0", "[lcm]\nurl = \"memq://\"\n"};
 
 void expect_equal(const detect::Stairway& a, const detect::Stairway& b) {
@@ -135,6 +144,8 @@ TEST(MessageCodec, disk_health_and_settings_come_back_as_sent) {
   EXPECT_EQ(health->disk_rate_hz, kHealth.disk_rate_hz);
   EXPECT_EQ(health->points, kHealth.points);
   EXPECT_EQ(health->drops, kHealth.drops);
+  EXPECT_EQ(health->devices, kHealth.devices);
+  EXPECT_EQ(health->clock, kHealth.clock);
 
   const auto settings = decode<SettingsMessage>(encode(kSettings));
   ASSERT_TRUE(settings);
@@ -197,7 +208,7 @@ TEST(MessageCodec, values_outside_an_enumeration_are_refused) {
   EXPECT_EQ(decode<ScanMessage>(scan).error(), MessageFault::ImpossibleValue);
 
   Bytes disk = encode(kDisk);
-  disk[8 + 4 * 8 + 1 + 8] = 3;
+  disk[8 + 4 * 8 + 1 + 8] = 4;
   EXPECT_EQ(decode<DiskMessage>(disk).error(), MessageFault::ImpossibleValue);
 
   const std::size_t first_stairway = 8 + 3 * 8 + 1 + 4;

@@ -130,6 +130,16 @@ TEST(MonitorVerb, waits_for_a_network_without_multicast_route_until_the_time_is_
   EXPECT_NE(err.find("is stairwayd running"), std::string::npos) << err;
 }
 
+TEST(HealthText, names_devices_that_are_silent_and_the_quality_of_the_clock) {
+  ipc::HealthMessage health;
+  health.devices = {{"scanner", "streaming", true, 0.1, 0}, {"encoder", "no chip", false, 7.2, 3}};
+  health.clock = {25.02, 0.71, 0.3, 1.0, 2};
+  const std::string text = tools::health_text(health);
+  EXPECT_NE(text.find("encoder silent for 7 s"), std::string::npos) << text;
+  EXPECT_EQ(text.find("scanner silent"), std::string::npos) << text;
+  EXPECT_NE(text.find("clock 25.02 ms late 0.7 ms set 2 times"), std::string::npos) << text;
+}
+
 TEST(HealthText, bar_shows_the_share_of_the_sweep_whatever_the_message_says) {
   ipc::HealthMessage health;
   health.state = "scanning";

@@ -10,6 +10,8 @@
 #include <thread>
 #include <variant>
 
+#include "drivers/disk_encoder.hpp"
+#include "drivers/disk_motor.hpp"
 #include "drivers/utm30lx.hpp"
 #include "scan_assembly/sweep_assembler.hpp"
 #include "tools/sim/scene_file.hpp"
@@ -24,14 +26,23 @@ using drivers::HostStamp;
 
 Scene empty_room() { return build_scene(load_scene("empty-room")); }
 
-SimulatedRobotOptions fast_disk() {
-  SimulatedRobotOptions options;
-  options.disk_speed_rad_s = 2 * std::numbers::pi / 2.0;
-  return options;
+// As if by hand; the drive is not on.
+void turn_disk(SimulatedRobot& robot, double speed_rad_s) {
+  robot.tamper([&](const SimulatedRobot::Parts& parts) { parts.disk.set_speed(parts.now_ns, speed_rad_s); });
 }
 
 drivers::Utm30lx open_driver(SimulatedRobot& robot) {
-  return {{[&] { return robot.open_scanner(); }}, [&] { return robot.now_ns(); }, {}};
+  return {robot.scanner(), [&] { return robot.now_ns(); }, {}};
+}
+
+drivers::DiskEncoder open_encoder(SimulatedRobot& robot) {
+  return {robot.encoder(), [&] { return robot.now_ns(); }, {}};
+}
+
+template <class Port>
+std::unique_ptr<Port> open_port(const drivers::PortOpener<Port>& opener) {
+  auto port = opener.open();
+  return port ? std::move(*port) : nullptr;
 }
 
 TEST(SimRobot, the_driver_opens_it_and_gets_every_scan_at_its_time) {
@@ -54,16 +65,18 @@ TEST(SimRobot, the_driver_opens_it_and_gets_every_scan_at_its_time) {
 }
 
 TEST(SimRobot, scanner_and_encoder_read_by_two_threads_make_the_room_again) {
-  SimulatedRobot robot{empty_room(), fast_disk()};
+  SimulatedRobot robot{empty_room(), {}};
+  turn_disk(robot, 2 * std::numbers::pi / 2.0);
   std::mutex mutex;
   scan::SweepAssembler assembler{scan::make_calibration({})};
   std::atomic<bool> is_done{false};
-  auto encoder_port = robot.open_encoder();
-  std::jthread encoder{[&] {
+  std::jthread reader{[&] {
+    auto encoder = open_encoder(robot);
     while (!is_done) {
-      const auto samples = encoder_port->read(20ms);
-      const std::lock_guard lock{mutex};
-      if (samples) assembler.add(*samples);
+      for (auto& event : encoder.poll(20ms)) {
+        const std::lock_guard lock{mutex};
+        if (const auto* samples = std::get_if<std::vector<drivers::AngleSample>>(&event)) assembler.add(*samples);
+      }
     }
   }};
   auto driver = open_driver(robot);
@@ -90,28 +103,60 @@ TEST(SimRobot, scanner_and_encoder_read_by_two_threads_make_the_room_again) {
   EXPECT_LT(off, static_cast<int>(sweep->cloud.points.size() / 100));
 }
 
-TEST(SimRobot, one_thread_may_read_both_ports_by_turns) {
-  SimulatedRobot robot{empty_room(), fast_disk()};
-  auto scanner = robot.open_scanner();
-  auto encoder = robot.open_encoder();
-  ASSERT_TRUE(scanner->write("MD0000108001000\n"));
-  int messages = 0;
-  HostStamp newest_sample_ns = 0;
-  for (int i = 0; i < 400 && messages < 40; ++i) {
-    const auto chunk = scanner->read(5ms);
-    ASSERT_TRUE(chunk);
-    messages += !chunk->bytes.empty();
-    EXPECT_LE(chunk->arrival_ns, newest_sample_ns + 110'000'000);
-    const auto samples = encoder->read(5ms);
-    ASSERT_TRUE(samples);
-    if (!samples->empty()) newest_sample_ns = samples->back().stamp_ns;
+TEST(SimRobot, drive_turns_the_disk_and_one_thread_may_read_all_ports) {
+  SimulatedRobotOptions options;
+  options.start_angle_rad = -0.2;
+  SimulatedRobot robot{empty_room(), options};
+  auto scanner = open_driver(robot);
+  auto encoder = open_encoder(robot);
+  drivers::DiskMotor motor{robot.motor(), [&] { return robot.now_ns(); }, {}};
+  motor.set_speed(0.5);
+  drivers::AngleSample last;
+  double drive_rad_s = 0.0;
+  std::size_t scans = 0;
+  while (robot.now_ns() < 5'000'000'000) {
+    for (const auto& event : scanner.poll(50ms)) scans += std::holds_alternative<drivers::LaserScan>(event);
+    for (const auto& event : motor.poll(0ms)) {
+      if (const auto* feedback = std::get_if<drivers::DriveFeedback>(&event)) drive_rad_s = feedback->speed_rad_s;
+    }
+    for (const auto& event : encoder.poll(0ms)) {
+      if (const auto* samples = std::get_if<std::vector<drivers::AngleSample>>(&event)) last = samples->back();
+    }
   }
-  EXPECT_EQ(messages, 40);
+  EXPECT_GT(scans, 50u);
+  EXPECT_NEAR(drive_rad_s, 0.5, 1e-3);
+  EXPECT_NEAR(robot.disk_speed_rad_s(), 0.5, 1e-3);
+  EXPECT_TRUE(last.valid);
+  EXPECT_NEAR(last.angle_rad, robot.disk_angle_rad(), 0.06);
+  EXPECT_TRUE(motor.stop());
+  EXPECT_EQ(robot.disk_speed_rad_s(), 0.0);
+}
+
+TEST(SimRobot, pulled_cable_closes_the_port_until_it_is_plugged_in_again) {
+  for (const auto cable :
+       {SimulatedRobot::Cable::Scanner, SimulatedRobot::Cable::Motor, SimulatedRobot::Cable::Encoder}) {
+    SimulatedRobotOptions options;
+    options.speed_factor = 10.0;
+    SimulatedRobot robot{empty_room(), options};
+    auto scanner = open_port(robot.scanner());
+    auto motor = open_port(robot.motor());
+    auto encoder = open_port(robot.encoder());
+    ASSERT_TRUE(scanner && motor && encoder);
+    robot.plug(cable, false);
+    EXPECT_EQ(scanner->read(1ms).has_value(), cable != SimulatedRobot::Cable::Scanner);
+    EXPECT_EQ(motor->read(1ms).has_value(), cable != SimulatedRobot::Cable::Motor);
+    EXPECT_EQ(encoder->read(1ms).has_value(), cable != SimulatedRobot::Cable::Encoder);
+    EXPECT_EQ(open_port(robot.scanner()) != nullptr, cable != SimulatedRobot::Cable::Scanner);
+    robot.plug(cable, true);
+    EXPECT_TRUE(robot.scanner().open().has_value());
+    EXPECT_TRUE(robot.motor().open().has_value());
+    EXPECT_TRUE(robot.encoder().open().has_value());
+  }
 }
 
 TEST(SimRobot, without_commands_time_passes_with_the_waits) {
   SimulatedRobot robot{empty_room(), {}};
-  auto scanner = robot.open_scanner();
+  auto scanner = open_port(robot.scanner());
   const auto chunk = scanner->read(10s);
   ASSERT_TRUE(chunk);
   EXPECT_TRUE(chunk->bytes.empty());
@@ -120,16 +165,17 @@ TEST(SimRobot, without_commands_time_passes_with_the_waits) {
 
 TEST(SimRobot, the_encoder_alone_moves_time_and_follows_the_disk) {
   SimulatedRobot robot{empty_room(), {}};
-  auto encoder = robot.open_encoder();
-  robot.set_disk_speed(-1.0);
+  auto encoder = open_encoder(robot);
+  turn_disk(robot, -1.0);
   double angle = 0;
   while (robot.now_ns() < 2'000'000'000) {
-    const auto samples = encoder->read(100ms);
-    ASSERT_TRUE(samples);
-    if (!samples->empty()) angle = samples->back().angle_rad;
+    for (const auto& event : encoder.poll(100ms)) {
+      if (const auto* samples = std::get_if<std::vector<drivers::AngleSample>>(&event))
+        angle = samples->back().angle_rad;
+    }
   }
-  EXPECT_NEAR(angle, -2.0, 0.01);
-  EXPECT_NEAR(robot.disk_angle_rad(), -2.0, 0.01);
+  EXPECT_NEAR(angle, -2.0, 0.06);
+  EXPECT_NEAR(robot.disk_angle_rad(), -2.0, 0.06);
   EXPECT_EQ(robot.disk_speed_rad_s(), -1.0);
 }
 
@@ -137,7 +183,7 @@ TEST(SimRobot, paced_time_follows_the_clock_of_the_machine) {
   SimulatedRobotOptions options;
   options.speed_factor = 10.0;
   SimulatedRobot robot{empty_room(), options};
-  auto scanner = robot.open_scanner();
+  auto scanner = open_port(robot.scanner());
   ASSERT_TRUE(scanner->write("MD0000000001000\n"));
   const auto start = std::chrono::steady_clock::now();
   HostStamp newest_ns = 0;
@@ -156,7 +202,7 @@ TEST(SimRobot, ports_may_outlive_the_robot) {
   std::unique_ptr<drivers::BytePort> scanner;
   {
     SimulatedRobot robot{empty_room(), {}};
-    scanner = robot.open_scanner();
+    scanner = open_port(robot.scanner());
   }
   ASSERT_TRUE(scanner->write("BM\n"));
   EXPECT_EQ(scanner->read(1s)->bytes, "BM\n00P\n\n");

@@ -56,11 +56,19 @@ std::string answer_json(const ipc::StairwaysMessage& message) {
 
 std::string health_text(const ipc::HealthMessage& health) {
   constexpr int kBar = 20;
+  constexpr double kOldData_s = 2.0;
   const double progress = std::isfinite(health.sweep_progress) ? std::clamp(health.sweep_progress, 0.0, 1.0) : 0.0;
   const int done = static_cast<int>(std::lround(progress * kBar));
   std::string text = fmt::format("{}: sweep {} [{:#<{}}{:.<{}}] {:3.0f} %  {} points  scans {:.1f} Hz  disk {:.0f} Hz",
                                  health.state, health.sweep, "", done, "", kBar - done, 100.0 * progress, health.points,
                                  health.scan_rate_hz, health.disk_rate_hz);
+  for (const ipc::DeviceHealth& device : health.devices) {
+    if (device.data_age_s > kOldData_s) text += fmt::format("  {} silent for {:.0f} s", device.name, device.data_age_s);
+  }
+  if (health.clock.period_ms > 0.0) {
+    text += fmt::format("  clock {:.2f} ms late {:.1f} ms", health.clock.period_ms, health.clock.delay_ms);
+    if (health.clock.resets > 0) text += fmt::format(" set {} times", health.clock.resets);
+  }
   for (const auto& [reason, count] : health.drops)
     if (count > 0) text += fmt::format("  {} {}", reason, count);
   return text;

@@ -20,7 +20,24 @@ double turn_progress(double angle_rad, double speed_rad_s) {
 
 void HealthBook::note(const SourceState& state) {
   const std::lock_guard lock(mutex_);
-  source_ = state;
+  DeviceEntry& entry = devices_[state.device];
+  entry.condition = state.condition;
+  entry.text = state.text;
+}
+
+void HealthBook::note(const drivers::ClockQuality& quality) {
+  const std::lock_guard lock(mutex_);
+  clock_ = quality;
+}
+
+void HealthBook::note_sign(Device device, Clock::time_point now) {
+  const std::lock_guard lock(mutex_);
+  devices_[device].last_sign = now;
+}
+
+void HealthBook::note_stop() {
+  const std::lock_guard lock(mutex_);
+  is_stopped_ = true;
 }
 
 void HealthBook::note_scan(const drivers::LaserScan& scan) {
@@ -61,6 +78,13 @@ void HealthBook::count(const std::string& name, std::uint64_t number) {
   counts_[name] += static_cast<std::int64_t>(number);
 }
 
+void HealthBook::count_trouble(const SourceTrouble& trouble) {
+  count(trouble.name);
+  if (!trouble.device) return;
+  const std::lock_guard lock(mutex_);
+  ++devices_[*trouble.device].troubles;
+}
+
 ipc::HealthMessage HealthBook::report(Clock::time_point now, std::int64_t utime_us) {
   const std::lock_guard lock(mutex_);
   ipc::HealthMessage health;
@@ -75,6 +99,10 @@ ipc::HealthMessage HealthBook::report(Clock::time_point now, std::int64_t utime_
     health.disk_rate_hz = static_cast<double>(angles_) / elapsed_s;
   }
   health.drops.assign(counts_.begin(), counts_.end());
+  for (const auto& [device, entry] : devices_) health.devices.push_back(device_health(device, entry, now));
+  if (clock_)
+    health.clock = {clock_->period_ms, clock_->mean_delay_ms, clock_->stamp_residual_ms, clock_->drift_ppm,
+                    static_cast<std::int64_t>(clock_->resets)};
   last_report_ = now;
   scans_ = 0;
   angles_ = 0;
@@ -82,10 +110,30 @@ ipc::HealthMessage HealthBook::report(Clock::time_point now, std::int64_t utime_
 }
 
 std::string HealthBook::state_text() const {
-  if (!source_.is_delivering) return source_.text;
+  if (is_stopped_) return "stopped";
+  if (devices_.empty()) return "starting";
+  if (std::string text = failures(); !text.empty()) return text;
   if (scans_ == 0) return "no scans arrive";
   if (angles_ == 0) return "no disk angles arrive";
   return is_angle_valid_ ? "scanning" : "waiting for the disk's index";
+}
+
+// Every device that has failed, else every one that is not ready yet.
+std::string HealthBook::failures() const {
+  std::string text;
+  for (const Condition condition : {Condition::Failed, Condition::Starting}) {
+    for (const auto& [device, entry] : devices_) {
+      if (entry.condition != condition) continue;
+      text.append(text.empty() ? "" : "; ").append(to_string(device)).append(": ").append(entry.text);
+    }
+    if (!text.empty()) break;
+  }
+  return text;
+}
+
+ipc::DeviceHealth HealthBook::device_health(Device device, const DeviceEntry& entry, Clock::time_point now) const {
+  const double age_s = entry.last_sign ? std::chrono::duration<double>(now - *entry.last_sign).count() : -1.0;
+  return {to_string(device), entry.text, entry.condition == Condition::Good, age_s, entry.troubles};
 }
 
 }  // namespace stairway::daemon

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,21 +25,38 @@ class HealthBook {
   explicit HealthBook(Clock::time_point now) : last_report_(now) {}
 
   void note(const SourceState& state);
+  void note(const drivers::ClockQuality& quality);
+  /// A device gave data.
+  void note_sign(Device device, Clock::time_point now);
+  void note_stop();
   void note_scan(const drivers::LaserScan& scan);
   void note_angles(std::size_t samples, const scan::AngleTrack& track);
   void note_sweep(const scan::Sweep& sweep);
   /// Something was dropped or went wrong.
   void count(const std::string& name, std::uint64_t number = 1);
+  /// Something went wrong with a device; its name begins with the device's.
+  void count_trouble(const SourceTrouble& trouble);
 
   /// The figures since the last report, and the counts since the start.
   ipc::HealthMessage report(Clock::time_point now, std::int64_t utime_us);
 
  private:
+  struct DeviceEntry {
+    Condition condition = Condition::Starting;
+    std::string text;
+    std::optional<Clock::time_point> last_sign;
+    std::int64_t troubles = 0;
+  };
+
   std::string state_text() const;
+  std::string failures() const;
+  ipc::DeviceHealth device_health(Device device, const DeviceEntry& entry, Clock::time_point now) const;
 
   std::mutex mutex_;
   Clock::time_point last_report_;
-  SourceState source_{false, "starting"};
+  std::map<Device, DeviceEntry> devices_;  // those that were told of
+  std::optional<drivers::ClockQuality> clock_;
+  bool is_stopped_ = false;
   std::uint64_t scans_ = 0;   // since the last report, like
   std::uint64_t angles_ = 0;  // these
   std::int64_t sweep_ = 0;

@@ -17,6 +17,7 @@
 
 #include "config/load_settings.hpp"
 #include "tools/sim/scene_file.hpp"
+#include "tools/stairwayd/hardware_source.hpp"
 #include "tools/stairwayd/live_settings.hpp"
 #include "tools/stairwayd/log.hpp"
 #include "tools/stairwayd/pass_log.hpp"
@@ -42,6 +43,8 @@ constexpr const char* kFooter =
     "Settings: the defaults, then the file, then *.toml in the folder conf.d beside it in their order, then --set.\n"
     "Without --config the file is /etc/stairwayd/stairwayd.toml if it exists. SIGHUP reads them again.\n\n"
     "Exit codes: 0 ended by SIGTERM, SIGINT or --once; 1 failure; 2 wrong usage; 78 bad settings.\n\n"
+    "Without --simulate it runs on the scanner (USB), the disk motor (CAN) and the encoder (GPIO) that the settings\n"
+    "name, and waits for those that are missing; stairway doctor says what is wrong with them.\n\n"
     "Example: stairwayd --simulate=straight-flight --set simulate.speed=0 --once";
 
 struct CommandLine {
@@ -130,7 +133,9 @@ int run(const CommandLine& line) {
   if (!loaded) return fail(kBadSettings, loaded.error().text);
   std::unique_ptr<daemon::MeasurementSource> source;
   try {
-    if (line.is_simulation) source = std::make_unique<daemon::SimulatedSource>(loaded->settings, utime_now_us());
+    if (line.is_simulation) {
+      source = std::make_unique<daemon::SimulatedSource>(loaded->settings, utime_now_us());
+    }
   } catch (const sim::SceneFileError& error) {
     return fail(kBadSettings, error.what());
   } catch (const std::invalid_argument& error) {
@@ -140,12 +145,16 @@ int run(const CommandLine& line) {
     std::puts("the settings are in order");
     return kSuccess;
   }
-  if (!source) {
-    return fail(kFailure,
-                "this version cannot open the scanner (USB), the disk motor (CAN) and the encoder (GPIO) yet; "
-                "run it on a simulated robot with --simulate");
+  try {
+    if (!source) {
+      source = std::make_unique<daemon::HardwareSource>(loaded->settings, daemon::hardware_ports(loaded->settings),
+                                                        daemon::utime_of_monotonic_us);
+    }
+    return run(line, loaded->settings, std::move(source));
+  } catch (const std::exception& error) {
+    // Caught so that the source is destroyed, which stops the disk.
+    return fail(kFailure, error.what());
   }
-  return run(line, loaded->settings, std::move(source));
 }
 
 }  // namespace

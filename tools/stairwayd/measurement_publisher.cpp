@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 40;
 constexpr drivers::HostStamp kDiskInterval_ns = 100'000'000;
+constexpr drivers::HostStamp kFreshAngle_ns = 250'000'000;
 
 drivers::HostStamp last_beam_ns(const drivers::LaserScan& scan) {
   return scan::beam_stamp_ns(scan, std::max<std::size_t>(1, scan.ranges_m.size()) - 1);
@@ -34,10 +35,31 @@ void MeasurementPublisher::add(drivers::LaserScan scan, const scan::AngleTrack& 
 
 void MeasurementPublisher::add(std::span<const drivers::AngleSample> samples, const scan::AngleTrack& track) {
   for (const drivers::AngleSample& sample : samples) {
+    last_sample_ = sample;
     if (last_disk_ns_ && sample.stamp_ns - *last_disk_ns_ < kDiskInterval_ns) continue;
     last_disk_ns_ = sample.stamp_ns;
     send(sample, track);
   }
+}
+
+void MeasurementPublisher::note(const SourceState& state, const scan::AngleTrack& track) {
+  if (state.device == Device::Scanner) return;
+  const DiskProblem before = disk_problem();
+  failures_.erase(state.device);
+  if (state.condition == Condition::Failed) failures_[state.device] = state.text;
+  if (disk_problem() == before) return;
+  const bool is_fresh = state.stamp_ns - last_sample_.stamp_ns < kFreshAngle_ns;
+  send({std::max(state.stamp_ns, last_sample_.stamp_ns), last_sample_.angle_rad, last_sample_.valid && is_fresh},
+       track);
+}
+
+DiskProblem MeasurementPublisher::disk_problem() const {
+  for (const auto& [device, fault] : {std::pair{Device::Encoder, ipc::DiskFault::Encoder},
+                                      {Device::Motor, ipc::DiskFault::Motor},
+                                      {Device::Disk, ipc::DiskFault::Disk}}) {
+    if (const auto failure = failures_.find(device); failure != failures_.end()) return {fault, failure->second};
+  }
+  return {};
 }
 
 void MeasurementPublisher::send_oldest(const scan::AngleTrack& track) {
@@ -65,10 +87,9 @@ void MeasurementPublisher::send(const drivers::AngleSample& sample, const scan::
   message.sample = sample;
   message.speed_rad_s = track.speed_rad_s().value_or(0.0);
   message.index_count = index_count_;
-  if (!sample.valid && index_count_ > 0) {
-    message.fault = ipc::DiskFault::Encoder;
-    message.fault_text = "the angle is lost until the next index";
-  }
+  DiskProblem problem = disk_problem();
+  message.fault = problem.fault;
+  message.fault_text = std::move(problem.text);
   publish_(channels_.disk, ipc::encode(message));
 }
 

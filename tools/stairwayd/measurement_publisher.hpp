@@ -5,15 +5,27 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "drivers/types.hpp"
 #include "ipc/channels.hpp"
+#include "ipc/messages.hpp"
 #include "scan_assembly/angle_track.hpp"
+#include "tools/stairwayd/measurement_source.hpp"
 #include "tools/stairwayd/publish.hpp"
 
 namespace stairway::daemon {
+
+/// The gravest thing that is wrong with the disk.
+struct DiskProblem {
+  ipc::DiskFault fault = ipc::DiskFault::None;
+  std::string text;
+
+  bool operator==(const DiskProblem&) const = default;
+};
 
 /// Sends every scan as soon as the disk angle at its last beam is known, and the disk's angle ten times in a second of
 /// measurement time.
@@ -27,16 +39,21 @@ class MeasurementPublisher {
   void add(drivers::LaserScan scan, const scan::AngleTrack& track);
   /// The samples are in `track` already.
   void add(std::span<const drivers::AngleSample> samples, const scan::AngleTrack& track);
+  /// What a device's state means for the disk goes out with the disk's angle, and at once when it changes.
+  void note(const SourceState& state, const scan::AngleTrack& track);
 
  private:
   void send_oldest(const scan::AngleTrack& track);
   void send(const drivers::AngleSample& sample, const scan::AngleTrack& track);
+  DiskProblem disk_problem() const;
 
   ipc::Channels channels_;
   Publish publish_;
   Utime utime_us_;
   std::deque<drivers::LaserScan> waiting_;
   std::optional<drivers::HostStamp> last_disk_ns_;
+  drivers::AngleSample last_sample_;
+  std::map<Device, std::string> failures_;
   std::int64_t index_count_ = 0;
 };
 

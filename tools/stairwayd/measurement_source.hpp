@@ -2,34 +2,67 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "drivers/scip/clock_mapping.hpp"
 #include "drivers/types.hpp"
 
 namespace stairway::daemon {
 
-/// How a source is doing, told when it changes.
-struct SourceState {
-  bool is_delivering = false;  ///< measurements come, or are due
-  std::string text;            ///< one line for a person, e.g. "scanner opening"
+/// A part of the machine that has a state of its own.
+enum class Device : std::uint8_t {
+  Scanner,
+  Motor,    ///< the disk's drive and its bus
+  Encoder,  ///< the disk's
+  Disk,     ///< what command, drive and encoder say about it together
+};
+inline constexpr std::array kDevices{Device::Scanner, Device::Motor, Device::Encoder, Device::Disk};
+const char* to_string(Device device);
+
+enum class Condition : std::uint8_t {
+  Good,      ///< does what it is for
+  Starting,  ///< not yet, and nothing is wrong so far
+  Failed,    ///< the text says why
 };
 
-/// Something went wrong at a source; counted by name.
+/// How a device is doing, told when it changes.
+struct SourceState {
+  Device device = Device::Scanner;
+  Condition condition = Condition::Starting;
+  std::string text;                 ///< one line for a person, e.g. "streaming"; without the device's name
+  drivers::HostStamp stamp_ns = 0;  ///< since when
+};
+
+/// Something went wrong; counted by name, and for the device if it is one's.
 struct SourceTrouble {
+  std::optional<Device> device;
   std::string name;    ///< one of a few, e.g. "scanner: corrupt message"
   std::string detail;  ///< for a person: what came, what was asked
 };
 
+/// A device gave data.
+struct SourceSign {
+  Device device = Device::Scanner;
+};
+
+/// One line for a person, e.g. which device was found.
+struct SourceNote {
+  std::string text;
+};
+
 /// What a source tells. Angle samples come in the order of their stamps, and scans likewise.
-using SourceEvent = std::variant<drivers::LaserScan, std::vector<drivers::AngleSample>, SourceState, SourceTrouble>;
+using SourceEvent = std::variant<drivers::LaserScan, std::vector<drivers::AngleSample>, SourceState, SourceTrouble,
+                                 SourceSign, SourceNote, drivers::ClockQuality>;
 
 /// Where measurements come from: devices, the simulation, a recording. Used by one thread.
 ///
-/// Lost devices are the source's own affair: it tries again without end and says so by its state.
+/// Lost devices are the source's own affair: it tries again without end and says so by their states.
 class MeasurementSource {
  public:
   virtual ~MeasurementSource() = default;
@@ -37,7 +70,8 @@ class MeasurementSource {
   /// Waits at most `timeout` of real time for something to happen and gives what happened, in order; often nothing.
   virtual std::vector<SourceEvent> read(std::chrono::milliseconds timeout) = 0;
 
-  /// Stops the motor, then scanning; at most about a second. Nothing is read afterwards.
+  /// Stops the motor, then scanning; waits for the disk to stand, at most about 9 s. Nothing is read afterwards.
+  /// Stopping twice is stopping once.
   virtual void stop() = 0;
 
   /// The instant of a stamp in microseconds since the epoch.

@@ -11,6 +11,7 @@
 #include "ipc/message_codec.hpp"
 #include "tools/common/stage_timer.hpp"
 #include "tools/stairwayd/log.hpp"
+#include "tools/stairwayd/thread_name.hpp"
 
 namespace stairway::daemon {
 namespace {
@@ -59,7 +60,7 @@ bool Pipeline::stop() {
   acquisition_.request_stop();
   if (!acquisition_.joinable()) return !detection_.joinable();
   acquisition_.join();
-  health_.note(SourceState{false, "stopped"});
+  health_.note_stop();
   send(channels_.health, ipc::encode(health_.report(Clock::now(), utime_now_us())));
   if (!detection_ended_.try_acquire_for(kDetectorGrace)) return false;
   detection_.join();
@@ -67,6 +68,7 @@ bool Pipeline::stop() {
 }
 
 void Pipeline::acquire(std::stop_token stop) {
+  name_this_thread("acquisition");
   while (!stop.stop_requested()) {
     for (SourceEvent& event : source_->read(kReadTimeout)) {
       std::visit([this](auto& what) { take(std::move(what)); }, event);
@@ -90,13 +92,22 @@ void Pipeline::take(const std::vector<drivers::AngleSample>& samples) {
 }
 
 void Pipeline::take(const SourceState& state) {
-  log::info(state.text);
+  const std::string text = fmt::format("{}: {}", to_string(state.device), state.text);
+  // Why a device has failed was said with its trouble.
+  state.condition == Condition::Good ? log::info(text) : log::debug(text);
   health_.note(state);
+  publisher_.note(state, assembler_.angle_track());
 }
+
+void Pipeline::take(const SourceSign& sign) { health_.note_sign(sign.device, Clock::now()); }
+
+void Pipeline::take(const SourceNote& note) { log::info(note.text); }
+
+void Pipeline::take(const drivers::ClockQuality& quality) { health_.note(quality); }
 
 void Pipeline::take(const SourceTrouble& trouble) {
   log::repeated_warning(trouble.name, fmt::format("{}: {}", trouble.name, trouble.detail));
-  health_.count(trouble.name);
+  health_.count_trouble(trouble);
 }
 
 void Pipeline::hand_over(scan::Sweep sweep) {
@@ -109,6 +120,7 @@ void Pipeline::hand_over(scan::Sweep sweep) {
 }
 
 void Pipeline::detect(std::stop_token stop) {
+  name_this_thread("detection");
   while (auto job = sweeps_.pop(stop)) {
     pass_began_ = Clock::now().time_since_epoch().count();
     try {

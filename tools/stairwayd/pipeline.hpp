@@ -66,7 +66,7 @@ class Pipeline {
   bool has_progressed();
 
   /// Stops the source (the motor first, then scanning), leaves the pass under way at its next stage, and sends a last
-  /// STAIRWAY_HEALTH. Waits half a second for the detector.
+  /// STAIRWAY_HEALTH. Waits at most about 9 s for the disk to stand, and half a second for the detector.
   /// @return Whether it has ended; a stage cannot be interrupted, and takes seconds for a large cloud.
   bool stop();
 
@@ -87,6 +87,9 @@ class Pipeline {
   void take(const std::vector<drivers::AngleSample>& samples);
   void take(const SourceState& state);
   void take(const SourceTrouble& trouble);
+  void take(const SourceSign& sign);
+  void take(const SourceNote& note);
+  void take(const drivers::ClockQuality& quality);
   void hand_over(scan::Sweep sweep);
   void detect(std::stop_token stop);
   Pass answer(Job job, std::stop_token stop);

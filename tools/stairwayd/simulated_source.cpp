@@ -3,66 +3,95 @@
 #include "tools/stairwayd/simulated_source.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "tools/sim/scene.hpp"
 #include "tools/sim/scene_file.hpp"
-#include "tools/stairwayd/scanner_events.hpp"
 
 namespace stairway::daemon {
 namespace {
 
-// Less than the lead of 0.1 s that the simulation allows its scanner before its encoder.
-constexpr std::chrono::duration<double> kLongestStep{0.05};
+using std::chrono::nanoseconds;
 
-sim::SimulatedRobotOptions robot_options(const config::Settings& settings) {
+// Of simulated time; the drive and the encoder are read after it.
+constexpr std::chrono::duration<double> kLongestStep{0.05};
+// While the drive is set up: a step is a question and its answer.
+constexpr std::chrono::duration<double> kSetUpStep{0.002};
+constexpr drivers::HostStamp kClockReport_ns = 1'000'000'000;
+// Between the index and the disk's place when it has reached its speed.
+constexpr double kIndexMargin_rad = 0.1;
+
+// Before the index by what the disk turns until it has its speed.
+double start_angle_rad(const config::Settings& settings) {
+  const drivers::DiskOptions& disk = settings.disk;
+  const double speed_rad_s = disk.speed_rad_s();
+  const double check_rad_s = std::min(disk.check_speed_rad_s, std::abs(speed_rad_s));
+  const double ramp_rad = speed_rad_s * speed_rad_s / (2.0 * settings.motor.acceleration_rad_s2);
+  const double check_rad =
+      check_rad_s * (disk.settle_s + disk.check_window_s + 2.0 * check_rad_s / settings.motor.acceleration_rad_s2);
+  return -std::copysign(std::min(ramp_rad + check_rad + kIndexMargin_rad, std::numbers::pi), speed_rad_s);
+}
+
+template <class Device>
+void take_all(Device& device, nanoseconds timeout, const sim::SimulatedRobot& robot, DeviceWatch& watch) {
+  for (auto& event : device.poll(timeout)) watch.take(std::move(event), robot.now_ns());
+}
+
+}  // namespace
+
+sim::SimulatedRobotOptions simulated_robot_options(const config::Settings& settings) {
   sim::SimulatedRobotOptions options;
   options.mount = settings.mount;
-  options.disk_speed_rad_s = 0.0;
+  options.drive.node_id = settings.motor.node_id;
+  options.drive.counts_per_turn = settings.motor.counts_per_turn;
+  options.drive.velocity_units_per_turn_per_s = settings.motor.velocity_units_per_turn_per_s;
+  options.drive.acceleration_units_per_turn_per_s2 = settings.motor.acceleration_units_per_turn_per_s2;
+  options.drive.reverse = settings.motor.reverse;
+  options.encoder_counts_per_turn = settings.encoder.counts_per_turn;
+  options.start_angle_rad = start_angle_rad(settings);
   options.speed_factor = settings.simulate.speed;
   options.seed = static_cast<std::uint64_t>(settings.simulate.seed);
   options.sensor.seed = options.seed;
   return options;
 }
 
-bool is_streaming(const drivers::ScipEvent& event) {
-  const auto* change = std::get_if<drivers::ScipStateEvent>(&event);
-  return change != nullptr && change->state == drivers::ScipState::Streaming;
-}
-
-}  // namespace
-
 SimulatedSource::SimulatedSource(const config::Settings& settings, std::int64_t start_utime_us)
     : start_utime_us_(start_utime_us),
       speed_(settings.simulate.speed),
-      disk_speed_rad_s_(2.0 * std::numbers::pi / settings.disk.period_s),
-      robot_(sim::build_scene(sim::load_scene(settings.simulate.scene)), robot_options(settings)),
-      encoder_(robot_.open_encoder()) {
-  scanner_.emplace(
-      drivers::PortOpener<drivers::BytePort>{[this] { return robot_.open_scanner(); }},
-      [this] { return robot_.now_ns(); }, settings.lidar);
+      has_encoder_(settings.disk.angle_source == drivers::AngleSource::Encoder),
+      robot_(sim::build_scene(sim::load_scene(settings.simulate.scene)), simulated_robot_options(settings)),
+      watch_(settings) {
+  const auto now_ns = [this] { return robot_.now_ns(); };
+  if (has_encoder_) encoder_.emplace(robot_.encoder(), now_ns, settings.encoder);
+  scanner_.emplace(robot_.scanner(), now_ns, settings.lidar);
+  motor_.emplace(robot_.motor(), now_ns, settings.motor);
 }
 
 std::vector<SourceEvent> SimulatedSource::read(std::chrono::milliseconds timeout) {
   // The simulation's waits are in its own time.
   const std::chrono::duration<double> limit = timeout * speed_;
-  const auto step =
-      std::chrono::ceil<std::chrono::nanoseconds>(speed_ > 0.0 ? std::min(limit, kLongestStep) : kLongestStep);
-  std::vector<drivers::ScipEvent> scanner_events = scanner_->poll(step);
+  const auto longest = motor_->session().state() == drivers::MotorState::Running ? kLongestStep : kSetUpStep;
+  const auto step = std::chrono::ceil<nanoseconds>(speed_ > 0.0 ? std::min(limit, longest) : longest);
+  auto scanner_events = scanner_->poll(step);
 
-  std::vector<SourceEvent> events;
-  auto samples = encoder_->read(std::chrono::nanoseconds::zero());
-  if (samples && !samples->empty()) events.emplace_back(std::move(*samples));
-  for (drivers::ScipEvent& event : scanner_events) {
-    if (is_streaming(event)) robot_.set_disk_speed(disk_speed_rad_s_);
-    if (auto translated = to_source_event(std::move(event))) events.push_back(std::move(*translated));
+  motor_->set_speed(watch_.wanted_speed_rad_s());
+  take_all(*motor_, nanoseconds::zero(), robot_, watch_);
+  if (encoder_) take_all(*encoder_, nanoseconds::zero(), robot_, watch_);
+  // After the angles, which a scan waits for.
+  for (auto& event : scanner_events) watch_.take(std::move(event), robot_.now_ns());
+  const drivers::HostStamp now_ns = robot_.now_ns();
+  if (now_ns >= next_clock_report_ns_ && scanner_->session().state() == drivers::ScipState::Streaming) {
+    next_clock_report_ns_ = now_ns + kClockReport_ns;
+    watch_.take(scanner_->session().clock_quality());
   }
-  return events;
+  watch_.pass_time(now_ns);
+  return watch_.take_events();
 }
 
 void SimulatedSource::stop() {
-  robot_.set_disk_speed(0.0);
+  motor_.reset();
   scanner_.reset();
   encoder_.reset();
 }

@@ -3,20 +3,24 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "config/settings.hpp"
+#include "drivers/disk_encoder.hpp"
+#include "drivers/disk_motor.hpp"
 #include "drivers/utm30lx.hpp"
 #include "tools/sim/simulated_robot.hpp"
+#include "tools/stairwayd/device_watch.hpp"
 #include "tools/stairwayd/measurement_source.hpp"
 
 namespace stairway::daemon {
 
-/// The simulated robot, read through the real scanner driver.
-///
-/// The scanner is opened first; when it streams, the disk starts from rest at its index. With a speed of 0, simulated
-/// time goes as fast as it is read, and what is measured depends on the settings alone.
+/// The robot that `settings` describe: its scanner on its mount in the scene, a drive and an encoder with the units of
+/// the settings, and a disk that reaches its index soon after the self check.
+sim::SimulatedRobotOptions simulated_robot_options(const config::Settings& settings);
+
+/// The simulated robot, read through the same drivers as the real one, all in the reader's thread: with a speed of 0,
+/// simulated time goes as fast as it is read, and what is measured depends on the settings alone.
 class SimulatedSource final : public MeasurementSource {
  public:
   /// @param start_utime_us  the epoch time at which simulated time begins. The daemon gives the time of its start, so
@@ -28,13 +32,19 @@ class SimulatedSource final : public MeasurementSource {
   void stop() override;
   std::int64_t utime_us(drivers::HostStamp stamp_ns) const override;
 
+  /// For whoever wants to damage it.
+  sim::SimulatedRobot& robot() { return robot_; }
+
  private:
-  std::int64_t start_utime_us_;
-  double speed_;
-  double disk_speed_rad_s_;
+  const std::int64_t start_utime_us_;
+  const double speed_;
+  const bool has_encoder_;
   sim::SimulatedRobot robot_;
-  std::unique_ptr<drivers::AnglePort> encoder_;
+  DeviceWatch watch_;
+  std::optional<drivers::DiskEncoder> encoder_;
   std::optional<drivers::Utm30lx> scanner_;
+  std::optional<drivers::DiskMotor> motor_;
+  drivers::HostStamp next_clock_report_ns_ = 0;
 };
 
 }  // namespace stairway::daemon

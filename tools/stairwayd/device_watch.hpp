@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/settings.hpp"
+#include "drivers/canopen/motor_events.hpp"
+#include "drivers/disk/disk_supervisor.hpp"
+#include "drivers/encoder/encoder_events.hpp"
+#include "drivers/scip/scip_events.hpp"
+#include "tools/stairwayd/measurement_source.hpp"
+
+namespace stairway::daemon {
+
+/// Turns what scanner, motor and encoder tell into what the pipeline takes, says how each of them is doing, and decides
+/// how fast the disk should turn. The same for real and simulated devices. No thread, clock or port.
+///
+/// With the drive as angle source there is no encoder, and the drive's positions become the disk's angles; they are
+/// valid while the drive runs.
+class DeviceWatch {
+ public:
+  /// @pre  settings.problem() is empty.
+  explicit DeviceWatch(const config::Settings& settings);
+
+  void take(drivers::ScipEvent event, drivers::HostStamp now_ns);
+  void take(drivers::MotorEvent event, drivers::HostStamp now_ns);
+  void take(drivers::EncoderEvent event, drivers::HostStamp now_ns);
+  void take(const drivers::ClockQuality& quality) { events_.emplace_back(quality); }
+
+  /// Lets time pass; call it after every batch of events and at least ten times a second.
+  void pass_time(drivers::HostStamp now_ns);
+
+  /// What came of it, in order.
+  std::vector<SourceEvent> take_events();
+
+  /// For the motor [rad/s].
+  double wanted_speed_rad_s() const { return supervisor_.wanted_speed_rad_s(); }
+
+ private:
+  struct Line {
+    Condition condition = Condition::Starting;
+    std::string text = "starting";
+    std::string trouble;  // the last one's detail
+    drivers::HostStamp trouble_ns = 0;
+  };
+
+  void set(Device device, bool is_good, std::string text, drivers::HostStamp now_ns);
+  void tell(Device device, Condition condition, std::string text, drivers::HostStamp now_ns);
+  void report(Device device, const char* trouble, std::string detail, drivers::HostStamp now_ns);
+  void add_angles(std::vector<drivers::AngleSample> samples);
+  void sign(Device device);
+  Line& line(Device device) { return lines_[static_cast<std::size_t>(device)]; }
+
+  drivers::DiskOptions disk_;
+  drivers::DiskSupervisor supervisor_;
+  bool is_drive_running_ = false;
+  std::array<Line, kDevices.size()> lines_;
+  std::array<bool, kDevices.size()> has_signed_{};
+  std::vector<SourceEvent> events_;
+};
+
+}  // namespace stairway::daemon

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/stairwayd/hardware_source.hpp"
+
+#include <fmt/format.h>
+
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "drivers/disk_encoder.hpp"
+#include "drivers/disk_motor.hpp"
+#include "drivers/host_clock.hpp"
+#include "drivers/utm30lx.hpp"
+#include "tools/stairwayd/thread_name.hpp"
+
+namespace stairway::daemon {
+namespace {
+
+using namespace std::chrono_literals;
+using drivers::HostStamp;
+
+// Some seconds of all devices together.
+constexpr std::size_t kWaitingNews = 2000;
+// How late a stop or a new speed is noticed.
+constexpr auto kScannerPoll = 100ms;
+constexpr auto kMotorPoll = 20ms;
+constexpr auto kEncoderPoll = 50ms;
+constexpr HostStamp kClockReport_ns = 1'000'000'000;
+
+}  // namespace
+
+std::int64_t utime_of_monotonic_us(HostStamp stamp_ns) {
+  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  const std::int64_t now_us = std::chrono::duration_cast<std::chrono::microseconds>(since_epoch).count();
+  return now_us - (drivers::monotonic_now_ns() - stamp_ns) / 1000;
+}
+
+HardwareSource::HardwareSource(const config::Settings& settings, DevicePorts ports, Utime utime_us)
+    : settings_(settings),
+      now_ns_(std::move(ports.now_ns)),
+      utime_us_(std::move(utime_us)),
+      queue_(kWaitingNews),
+      watch_(settings) {
+  if (settings_.disk.angle_source == drivers::AngleSource::Encoder) {
+    encoder_ = std::jthread([this, opener = std::move(ports.encoder)](std::stop_token stop) mutable {
+      run_encoder(std::move(stop), std::move(opener));
+    });
+  }
+  scanner_ = std::jthread([this, opener = std::move(ports.scanner)](std::stop_token stop) mutable {
+    run_scanner(std::move(stop), std::move(opener));
+  });
+  motor_ = std::jthread([this, opener = std::move(ports.motor)](std::stop_token stop) mutable {
+    run_motor(std::move(stop), std::move(opener));
+  });
+}
+
+HardwareSource::~HardwareSource() { stop(); }
+
+std::vector<SourceEvent> HardwareSource::read(std::chrono::milliseconds timeout) {
+  for (DeviceNews& news : queue_.take(timeout)) {
+    std::visit(
+        [&](auto& event) {
+          if constexpr (std::is_same_v<decltype(event), drivers::ClockQuality&>) {
+            watch_.take(event);
+          } else {
+            watch_.take(std::move(event), news.stamp_ns);
+          }
+        },
+        news.what);
+  }
+  watch_.pass_time(now_ns_());
+  wanted_speed_rad_s_ = watch_.wanted_speed_rad_s();
+  std::vector<SourceEvent> events = watch_.take_events();
+  if (const std::uint64_t dropped = queue_.take_dropped(); dropped > 0)
+    events.emplace_back(SourceTrouble{std::nullopt, "measurements dropped",
+                                      fmt::format("{}: this computer is too slow or was held up", dropped)});
+  return events;
+}
+
+void HardwareSource::stop() {
+  for (std::jthread* thread : {&motor_, &scanner_, &encoder_}) {
+    if (!thread->joinable()) continue;
+    thread->request_stop();
+    thread->join();
+  }
+}
+
+void HardwareSource::run_scanner(std::stop_token stop, drivers::PortOpener<drivers::BytePort> opener) {
+  name_this_thread("scanner");
+  drivers::Utm30lx scanner(std::move(opener), now_ns_, settings_.lidar);
+  HostStamp next_report_ns = 0;
+  while (!stop.stop_requested()) {
+    push(scanner.poll(kScannerPoll));
+    if (now_ns_() < next_report_ns || scanner.session().state() != drivers::ScipState::Streaming) continue;
+    next_report_ns = now_ns_() + kClockReport_ns;
+    queue_.push({now_ns_(), scanner.session().clock_quality()});
+  }
+}
+
+void HardwareSource::run_motor(std::stop_token stop, drivers::PortOpener<drivers::CanPort> opener) {
+  name_this_thread("motor");
+  drivers::DiskMotor motor(std::move(opener), now_ns_, settings_.motor);
+  while (!stop.stop_requested()) {
+    motor.set_speed(wanted_speed_rad_s_);
+    push(motor.poll(kMotorPoll));
+  }
+  motor.stop();
+}
+
+void HardwareSource::run_encoder(std::stop_token stop, drivers::PortOpener<drivers::EdgePort> opener) {
+  name_this_thread("encoder");
+  drivers::DiskEncoder encoder(std::move(opener), now_ns_, settings_.encoder);
+  while (!stop.stop_requested()) push(encoder.poll(kEncoderPoll));
+}
+
+template <class Event>
+void HardwareSource::push(std::vector<Event> events) {
+  for (Event& event : events) queue_.push({now_ns_(), std::move(event)});
+}
+
+}  // namespace stairway::daemon
