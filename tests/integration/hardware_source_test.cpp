@@ -27,7 +27,7 @@ config::Settings settings_for_threads() {
 }
 
 DevicePorts ports(sim::SimulatedRobot& robot) {
-  return {robot.scanner(), robot.motor(), robot.encoder(), [&robot] { return robot.now_ns(); }};
+  return {robot.scanner(), robot.motor(), robot.encoder(), std::nullopt, [&robot] { return robot.now_ns(); }};
 }
 
 class HardwareSourceTest : public testing::Test {

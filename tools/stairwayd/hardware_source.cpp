@@ -12,6 +12,8 @@
 #include "drivers/disk_motor.hpp"
 #include "drivers/host_clock.hpp"
 #include "drivers/utm30lx.hpp"
+#include "tools/stairwayd/log.hpp"
+#include "tools/stairwayd/sync_pulse_reader.hpp"
 #include "tools/stairwayd/thread_name.hpp"
 
 namespace stairway::daemon {
@@ -47,9 +49,10 @@ HardwareSource::HardwareSource(const config::Settings& settings, DevicePorts por
       run_encoder(std::move(stop), std::move(opener));
     });
   }
-  scanner_ = std::jthread([this, opener = std::move(ports.scanner)](std::stop_token stop) mutable {
-    run_scanner(std::move(stop), std::move(opener));
-  });
+  scanner_ = std::jthread(
+      [this, opener = std::move(ports.scanner), sync = std::move(ports.sync)](std::stop_token stop) mutable {
+        run_scanner(std::move(stop), std::move(opener), std::move(sync));
+      });
   motor_ = std::jthread([this, opener = std::move(ports.motor)](std::stop_token stop) mutable {
     run_motor(std::move(stop), std::move(opener));
   });
@@ -86,9 +89,18 @@ void HardwareSource::stop() {
   }
 }
 
-void HardwareSource::run_scanner(std::stop_token stop, drivers::PortOpener<drivers::BytePort> opener) {
+void HardwareSource::run_scanner(std::stop_token stop, drivers::PortOpener<drivers::BytePort> opener,
+                                 std::optional<drivers::PortOpener<drivers::EdgePort>> sync) {
   name_this_thread("scanner");
+  drivers::Utm30lx* told = nullptr;
+  if (sync) {
+    const auto tell = [&told](HostStamp pulse_ns) { told->on_sync_pulse(pulse_ns); };
+    const auto complain = [](const std::string& problem) { log::repeated_warning("sync pulses", problem); };
+    opener = with_sync_pulses(std::move(opener),
+                              std::make_shared<SyncPulseReader>(std::move(*sync), now_ns_, tell, complain));
+  }
   drivers::Utm30lx scanner(std::move(opener), now_ns_, settings_.lidar);
+  told = &scanner;
   HostStamp next_report_ns = 0;
   while (!stop.stop_requested()) {
     push(scanner.poll(kScannerPoll));

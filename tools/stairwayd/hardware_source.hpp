@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct DevicePorts {
   drivers::PortOpener<drivers::BytePort> scanner;
   drivers::PortOpener<drivers::CanPort> motor;
   drivers::PortOpener<drivers::EdgePort> encoder;
+  std::optional<drivers::PortOpener<drivers::EdgePort>> sync;  ///< the scanner's sync pulses, as line A
   std::function<drivers::HostStamp()> now_ns;
 };
 
@@ -48,7 +50,8 @@ class HardwareSource final : public MeasurementSource {
   std::int64_t utime_us(drivers::HostStamp stamp_ns) const override { return utime_us_(stamp_ns); }
 
  private:
-  void run_scanner(std::stop_token stop, drivers::PortOpener<drivers::BytePort> opener);
+  void run_scanner(std::stop_token stop, drivers::PortOpener<drivers::BytePort> opener,
+                   std::optional<drivers::PortOpener<drivers::EdgePort>> sync);
   void run_motor(std::stop_token stop, drivers::PortOpener<drivers::CanPort> opener);
   void run_encoder(std::stop_token stop, drivers::PortOpener<drivers::EdgePort> opener);
   template <class Event>
