@@ -103,6 +103,8 @@ void DiskSupervisor::begin_ramp(double change_rad_s, HostStamp now_ns) {
 
 void DiskSupervisor::compare(HostStamp now_ns) {
   if (motor_ != MotorState::Running || now_ns < window_begin_ns_) return;
+  // Nothing is proved without the encoder.
+  if (state_ == DiskState::Checking && has_encoder() && !encoder_.is_present) return begin_ramp(0.0, now_ns);
   if (!is_window_open_) {
     is_window_open_ = true;
     window_begin_ns_ = now_ns;
@@ -126,8 +128,9 @@ DiskSpeeds DiskSupervisor::measured() const {
   speeds.wanted_rad_s = wanted_rad_s_;
   if (feedbacks_ > 0) speeds.drive_speed_rad_s = drive_speed_sum_rad_s_ / feedbacks_;
   speeds.drive_position_rad_s = drive_.mean_rad_s();
-  speeds.has_encoder = has_encoder();
-  if (has_encoder()) speeds.encoder_rad_s = angle_.mean_rad_s();
+  // Of an encoder that is gone, its own state tells.
+  speeds.has_encoder = has_encoder() && encoder_.is_present;
+  if (speeds.has_encoder) speeds.encoder_rad_s = angle_.mean_rad_s();
   return speeds;
 }
 

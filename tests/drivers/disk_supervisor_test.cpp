@@ -171,6 +171,25 @@ TEST(DiskSupervisor, disk_goes_on_for_a_while_without_scans_and_then_rests) {
   EXPECT_TRUE(rig.troubles.empty());
 }
 
+TEST(DiskSupervisor, encoder_that_is_gone_is_no_trouble_of_the_disk_and_ends_no_check) {
+  Rig rig;
+  rig.make_ready();
+  rig.run(0.5);
+  rig.supervisor.on_encoder(EncoderState::Absent, rig.now_ns);
+  rig.is_encoder_telling = false;
+  rig.run(10.0);
+  EXPECT_EQ(rig.supervisor.state(), DiskState::Checking);
+  rig.supervisor.on_encoder(EncoderState::Unindexed, rig.now_ns);
+  rig.is_encoder_telling = true;
+  rig.run(5.0);
+  EXPECT_EQ(rig.supervisor.state(), DiskState::Turning);
+  rig.supervisor.on_encoder(EncoderState::Absent, rig.now_ns);
+  rig.is_encoder_telling = false;
+  rig.run(10.0);
+  EXPECT_EQ(rig.supervisor.state(), DiskState::Turning);
+  EXPECT_TRUE(rig.troubles.empty());
+}
+
 TEST(DiskSupervisor, fault_of_the_drive_leaves_the_wanted_speed_and_a_new_set_up_is_checked) {
   Rig rig;
   rig.make_ready();
