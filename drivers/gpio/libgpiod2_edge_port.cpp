@@ -73,8 +73,9 @@ class Libgpiod2EdgePort : public EdgePort {
 
  private:
   std::uint64_t take(gpiod_edge_event* event) {
-    const unsigned long number = gpiod_edge_event_get_global_seqno(event);
-    const std::uint64_t lost = number - next_number_;
+    // The kernel's numbers have 32 bits, whatever the library makes of them.
+    const auto number = static_cast<std::uint32_t>(gpiod_edge_event_get_global_seqno(event));
+    const auto lost = static_cast<std::uint32_t>(number - next_number_);
     next_number_ = number + 1;
     const auto line = std::ranges::find(offsets_, gpiod_edge_event_get_line_offset(event));
     if (line == offsets_.end()) return lost;
@@ -89,7 +90,7 @@ class Libgpiod2EdgePort : public EdgePort {
   std::vector<unsigned> offsets_;
   int queued_edges_;
   EdgeMerger merger_;
-  unsigned long next_number_ = 1;
+  std::uint32_t next_number_ = 1;
 };
 
 }  // namespace
