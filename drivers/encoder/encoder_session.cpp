@@ -16,8 +16,7 @@ constexpr HostStamp kRepeat_ns = 50'000'000;
 constexpr HostStamp kLongestPatience_ns = 200'000'000;
 constexpr HostStamp kRateReport_ns = 10'000'000'000;
 constexpr double kStandstill_ns = 0.2e9;
-constexpr std::size_t kSpeedEdges = 8;
-constexpr std::int64_t kTurnRoundCounts = 4;  // shorter ways back are bounces and vibration
+constexpr std::size_t kSpeedSamples = 9;  // two whole periods, so that lines of uneven width make no difference
 constexpr int kLeastAlone = 16;
 
 std::int64_t distance(std::int64_t a, std::int64_t b) { return std::abs(a - b); }
@@ -38,7 +37,7 @@ std::vector<EncoderEvent> EncoderSession::on_open(const LineLevels& levels, int 
   levels_ns_ = last_edge_ns_ = last_step_ns_ = levels.stamp_ns;
   interval_ns_ = 0;
   last_line_ = EncoderLine::Index;
-  direction_ = travel_ = alone_ = 0;
+  direction_ = alone_ = 0;
   index_at_.reset();
   recent_.clear();
   is_doubtful_ = false;
@@ -65,6 +64,7 @@ std::vector<EncoderEvent> EncoderSession::on_edges(const EdgeBatch& batch) {
 
 std::vector<EncoderEvent> EncoderSession::on_levels(const LineLevels& levels) {
   is_doubtful_ = false;
+  direction_ = 0;
   if (set_levels(levels.a, levels.b) == QuadratureStep::Illegal)
     report(EncoderTrouble::IllegalTransition, "A and B both changed while edges were lost");
   levels_ns_ = std::max(levels_ns_, levels.stamp_ns);
@@ -96,7 +96,11 @@ void EncoderSession::take(const Edge& edge) {
     return lose_track();
   }
   ++counters_.edges;
-  if (edge.line == EncoderLine::Index) return take_index(edge.is_rising);
+  if (edge.line == EncoderLine::Index) {
+    if (!index_change_) index_change_ = IndexChange{.was_high = !edge.is_rising};
+    index_change_->is_high = edge.is_rising;
+    return;
+  }
 
   const bool is_tie = edge.stamp_ns == last_edge_ns_ && edge.line != last_line_ && last_line_ != EncoderLine::Index;
   alone_ = edge.line == last_line_ ? alone_ + 1 : 0;
@@ -126,22 +130,25 @@ bool EncoderSession::level_of(EncoderLine line) const {
 }
 
 void EncoderSession::take_step(QuadratureStep step, HostStamp stamp_ns) {
-  direction_ = step == QuadratureStep::Forward ? 1 : -1;
+  const int direction = step == QuadratureStep::Forward ? 1 : -1;
+  const auto index_change = std::exchange(index_change_, std::nullopt);
+  // Edges may be missing among those that came since there is doubt.
+  if (index_change && direction == direction_ && !is_doubtful_) take_index(*index_change);
+  direction_ = direction;
   count_ += direction_;
-  if (travel_ == 0 || distance(count_, extreme_) >= kTurnRoundCounts) travel_ = direction_;
-  if (travel_ == direction_ && (count_ - extreme_) * travel_ > 0) extreme_ = count_;
   // Both ways across, a boundary is the same place.
   const std::int64_t boundary = direction_ > 0 ? count_ : count_ + 1;
   watch_for_index();
   emit(stamp_ns, angle_of(static_cast<double>(boundary)));
   interval_ns_ = stamp_ns - std::exchange(last_step_ns_, stamp_ns);
   recent_.push_back({stamp_ns, samples_.back().angle_rad});
-  if (recent_.size() > kSpeedEdges) recent_.erase(recent_.begin());
+  if (recent_.size() > kSpeedSamples) recent_.erase(recent_.begin());
 }
 
-void EncoderSession::take_index(bool is_rising) {
-  const bool is_reference = travel_ == (is_rising ? 1 : -1) && direction_ == travel_;
-  if (!is_reference || !has_index_line()) return;
+void EncoderSession::take_index(const IndexChange& change) {
+  // The mark begins within this count: below the count the line is low.
+  const bool has_begin = direction_ > 0 ? !change.was_high : !change.is_high;
+  if (!has_begin || !has_index_line()) return;
   ++counters_.indices;
   const std::int64_t turn = options_.counts_per_turn;
   const std::int64_t nearest =
@@ -149,7 +156,6 @@ void EncoderSession::take_index(bool is_rising) {
   const std::int64_t deviation = count_ - nearest;
   const bool is_expected = distance(count_, nearest) <= options_.index_tolerance;
   if (deviation != 0) recent_.clear();
-  extreme_ -= deviation;
   count_ = watched_from_ = nearest;
   is_zeroed_ = true;
   const bool was_tracked = std::exchange(index_at_, nearest).has_value();

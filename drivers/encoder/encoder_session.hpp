@@ -20,12 +20,12 @@ namespace stairway::drivers {
 ///
 /// Every edge of A and B gives a sample at its own instant. It lies on the boundary between two counts, so both
 /// directions tell the same angle for the same place. Angles are valid from the first index on. The index is taken at
-/// the same of its two edges in both directions (rising forwards, falling backwards), and only where the direction is
-/// beyond doubt. Where a revolution has not the right number of counts, the count is set right; by more than
-/// `index_tolerance` counts it is a fault, and angles are invalid until two indices agree. After an edge that is known
-/// to be lost (told by the kernel, both lines changed, one line rose twice) they are invalid until the next index.
-/// Without an index line they are always valid, and what is lost stays lost; it is counted. While nothing moves the
-/// last angle is repeated every 50 ms.
+/// the same of its two edges in both directions (rising forwards, falling backwards), and only where the disk passed
+/// it: counts in the same direction come before and after. Where a revolution has not the right number of counts, the
+/// count is set right; by more than `index_tolerance` counts it is a fault, and angles are invalid until two indices
+/// agree. After an edge that is known to be lost (told by the kernel, both lines changed, one line rose twice) they are
+/// invalid until the next index. Without an index line they are always valid, and what is lost stays lost; it is
+/// counted. While nothing moves the last angle is repeated every 50 ms.
 ///
 /// O(edges); it keeps nothing of them.
 class EncoderSession {
@@ -53,8 +53,8 @@ class EncoderSession {
   EncoderState state() const { return state_; }
   const EncoderCounters& counters() const { return counters_; }
   const EncoderOptions& options() const { return options_; }
-  /// Over the last eight edges [rad/s, counter-clockwise]; 0 when the last one is older than 0.2 s and than three times
-  /// their usual interval, empty before there were two.
+  /// Over the last eight counts [rad/s, counter-clockwise]; 0 when the last one is older than 0.2 s and than three
+  /// times their usual interval, empty before there were two.
   std::optional<double> speed_rad_s(HostStamp now_ns) const;
 
  private:
@@ -63,9 +63,14 @@ class EncoderSession {
     double angle_rad = 0.0;
   };
 
+  struct IndexChange {
+    bool was_high = false;
+    bool is_high = false;
+  };
+
   void take(const Edge& edge);
   void take_step(QuadratureStep step, HostStamp stamp_ns);
-  void take_index(bool is_rising);
+  void take_index(const IndexChange& change);
   void watch_for_index();
   void watch_for_other_line();
   void watch_rate(HostStamp stamp_ns);
@@ -84,13 +89,12 @@ class EncoderSession {
   EncoderState state_ = EncoderState::Absent;
   QuadratureDecoder decoder_;
   std::int64_t count_ = 0;
-  int direction_ = 0;                     // of the last step
-  int travel_ = 0;                        // the direction, not counting steps back of less than four counts
-  std::int64_t extreme_ = 0;              // the farthest count in the direction of travel
-  int alone_ = 0;                         // edges of one line since the last one of the other
-  std::optional<std::int64_t> index_at_;  // count at the last index, while no edge has been lost since
-  bool is_zeroed_ = false;                // an index has been seen since the start
-  std::int64_t watched_from_ = 0;         // an index is due within one and a half revolutions from this count
+  int direction_ = 0;                        // of the last step, 0 when it is not known
+  int alone_ = 0;                            // edges of one line since the last one of the other
+  std::optional<IndexChange> index_change_;  // since the last step
+  std::optional<std::int64_t> index_at_;     // count at the last index, while no edge has been lost since
+  bool is_zeroed_ = false;                   // an index has been seen since the start
+  std::int64_t watched_from_ = 0;            // an index is due within one and a half revolutions from this count
   bool is_doubtful_ = false;
 
   HostStamp levels_ns_ = std::numeric_limits<HostStamp>::min();

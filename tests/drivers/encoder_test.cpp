@@ -93,6 +93,22 @@ TEST(DiskEncoder, says_standstill_by_speed_zero) {
   EXPECT_EQ(bench.session().speed_rad_s(bench.now_ns), 0.0);
 }
 
+TEST(EncoderSession, tells_the_speed_of_an_encoder_whose_lines_are_of_uneven_width) {
+  EncoderSession session(coarse());
+  session.on_open({0, false, false, false}, 16);
+  // B leads; A is high for less than half of the period, and late.
+  constexpr drivers::HostStamp kPeriod_ns = 4'000'000;
+  for (drivers::HostStamp at_ns = kPeriod_ns; at_ns < 10 * kPeriod_ns; at_ns += kPeriod_ns) {
+    const std::vector<drivers::Edge> edges{{at_ns, EncoderLine::B, true},
+                                           {at_ns + 1'300'000, EncoderLine::A, true},
+                                           {at_ns + 1'900'000, EncoderLine::B, false},
+                                           {at_ns + 2'500'000, EncoderLine::A, false}};
+    session.on_edges({edges, 0, edges.back().stamp_ns});
+    if (at_ns < 3 * kPeriod_ns) continue;
+    EXPECT_NEAR(session.speed_rad_s(at_ns + 2'500'000).value_or(0.0), kTurn_rad / 100.0 / 4e-3, 1e-9);
+  }
+}
+
 TEST(DiskEncoder, a_reversed_encoder_turns_the_other_way) {
   EncoderOptions options = coarse();
   options.reverse = true;
@@ -174,13 +190,47 @@ TEST(DiskEncoder, edges_lost_by_whole_periods_are_found_at_the_index) {
   EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
 }
 
-TEST(DiskEncoder, a_small_deviation_of_the_index_is_mended_without_a_fault) {
-  EncoderBench bench(coarse());
-  bench.run(3.0);
-  bench.lines.faults().index_shift = 2;
-  bench.run(kTurn_rad);
-  EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
-  EXPECT_TRUE(bench.details.empty());
+TEST(DiskEncoder, an_early_or_late_index_is_a_fault_from_beyond_the_tolerance_on) {
+  for (const double speed : {1.0, -1.0}) {
+    for (const int shift : {-40, -3, -2, -1, 1, 2, 3, 40}) {
+      SCOPED_TRACE(testing::Message() << "by " << shift << " counts at " << speed << " rad/s");
+      EncoderBench bench(coarse(), -0.1 * speed, speed);
+      bench.run(3.0);
+      bench.lines.faults().index_shift = shift;
+      bench.run(kTurn_rad);
+      const bool is_fault = std::abs(shift) > 2;
+      EXPECT_EQ(bench.count(EncoderTrouble::IndexDeviation), is_fault ? 1U : 0U);
+      EXPECT_EQ(bench.session().state(), is_fault ? EncoderState::Unindexed : EncoderState::Indexed);
+      EXPECT_LE(bench.worst_error_counts(), 2.01);
+      bench.run(kTurn_rad);
+      EXPECT_EQ(bench.session().state(), EncoderState::Indexed);
+    }
+  }
+}
+
+TEST(DiskEncoder, takes_a_wide_index_at_the_same_place_both_ways) {
+  EncoderOptions options = coarse();
+  options.index_tolerance = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    sim::Random random(seed);
+    EncoderBench bench(options);
+    bench.lines.faults().index_width = 12;
+    bench.run(0.2);
+    ASSERT_EQ(bench.session().state(), EncoderState::Indexed);
+    for (int change = 0; change < 60; ++change) {
+      const double place = bench.motion.angle_at(bench.now_ns);
+      // Often close to one end of the mark.
+      const double wanted_counts =
+          random.chance(0.5) ? random.uniform(-30.0, 45.0) : random.integer(0, 1) * 12.0 + random.uniform(-1.0, 2.0);
+      const double wanted = wanted_counts * kTurn_rad / 400.0;
+      bench.motion.set_speed(bench.now_ns, wanted > place ? 1.0 : -1.0);
+      bench.run(std::abs(wanted - place));
+    }
+    EXPECT_GT(bench.session().counters().indices, 10U);
+    EXPECT_TRUE(bench.details.empty()) << bench.details.front();
+    EXPECT_LE(bench.worst_error_counts(), 1.01);
+  }
 }
 
 TEST(DiskEncoder, a_spurious_index_is_told_and_only_two_that_agree_are_believed) {
@@ -284,6 +334,40 @@ TEST(EncoderSession, an_edge_from_just_before_a_repeated_angle_keeps_the_order) 
   const auto& after = std::get<std::vector<drivers::AngleSample>>(edge.front());
   EXPECT_EQ(before.back().stamp_ns, 60'000'000);
   EXPECT_EQ(after.front().stamp_ns, 60'000'000);
+}
+
+TEST(EncoderSession, an_index_among_edges_that_were_lost_is_not_believed) {
+  const auto step = [](drivers::HostStamp stamp_ns, int count) {
+    return drivers::Edge{stamp_ns, count % 2 == 0 ? EncoderLine::A : EncoderLine::B, count % 4 == 1 || count % 4 == 2};
+  };
+  const drivers::Edge index{25, EncoderLine::Index, true};
+  const std::vector<drivers::Edge> passed{step(10, 1), step(20, 2), index, step(30, 3)};
+  const std::vector<drivers::Edge> begun{step(10, 1), step(20, 2), index};
+  for (const auto& edges : {passed, begun}) {
+    for (const std::uint64_t lost : {0, 4}) {
+      EncoderSession session(coarse());
+      session.on_open({0, false, false, false}, 16);
+      session.on_edges({edges, lost, 30});
+      EXPECT_EQ(session.wants_levels(), lost > 0);
+      if (lost > 0) session.on_levels({31, true, edges.size() == 3, true});
+      session.on_edges({edges.size() == 4 ? std::vector{step(40, 4)} : std::vector{step(40, 3), step(50, 4)}, 0, 50});
+      EXPECT_EQ(session.state(), lost > 0 ? EncoderState::Unindexed : EncoderState::Indexed);
+    }
+  }
+}
+
+TEST(EncoderSession, edges_older_than_the_levels_are_in_them_already) {
+  EncoderSession session(coarse());
+  session.on_open({100, true, true, false}, 16);
+  session.on_edges({{{98, EncoderLine::B, true}, {99, EncoderLine::A, true}}, 0, 100});
+  EXPECT_FALSE(session.wants_levels());
+  session.on_edges({{}, 1, 200});
+  session.on_levels({200, false, false, false});
+  session.on_edges({{{198, EncoderLine::B, false}, {199, EncoderLine::A, false}}, 0, 200});
+  EXPECT_FALSE(session.wants_levels());
+  session.on_edges({{{201, EncoderLine::B, true}}, 0, 201});
+  EXPECT_FALSE(session.wants_levels());
+  EXPECT_EQ(session.counters().edges, 1U);
 }
 
 TEST(EncoderSession, random_edges_do_not_break_it) {

@@ -45,11 +45,13 @@ FakeEncoderLines::FakeEncoderLines(const DiskMotion& motion, HostStamp start_ns,
   levels_ = {start_ns, level_a(count), level_b(count), floor_mod(tick_, ticks_per_turn_) == kIndexBegin};
 }
 
+std::int64_t FakeEncoderLines::index_end() const { return kIndexEnd + kTicksPerCount * faults_.index_width; }
+
 std::int64_t FakeEncoderLines::next_boundary(int direction) const {
   const std::int64_t shift = kTicksPerCount * faults_.index_shift;
   const std::int64_t edge = next_multiple(tick_, 0, kTicksPerCount, direction);
   const std::int64_t begin = next_multiple(tick_, kIndexBegin + shift, ticks_per_turn_, direction);
-  const std::int64_t end = next_multiple(tick_, kIndexEnd + shift, ticks_per_turn_, direction);
+  const std::int64_t end = next_multiple(tick_, index_end() + shift, ticks_per_turn_, direction);
   return direction > 0 ? std::min({edge, begin, end}) : std::max({edge, begin, end});
 }
 
@@ -91,7 +93,7 @@ void FakeEncoderLines::cross(std::int64_t boundary, int direction, drivers::Edge
   tick_ = direction > 0 ? boundary : boundary - 1;
   const std::int64_t in_turn = floor_mod(boundary - kTicksPerCount * faults_.index_shift, ticks_per_turn_);
   if (in_turn == kIndexBegin) return change(EncoderLine::Index, direction > 0, batch);
-  if (in_turn == kIndexEnd) return change(EncoderLine::Index, direction < 0, batch);
+  if (in_turn == index_end()) return change(EncoderLine::Index, direction < 0, batch);
   const std::int64_t count = boundary / kTicksPerCount - (direction > 0 ? 0 : 1);
   change(EncoderLine::A, level_a(count), batch);
   change(EncoderLine::B, level_b(count), batch);

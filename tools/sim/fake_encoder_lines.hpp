@@ -17,6 +17,7 @@ struct FakeEncoderFaults {
   bool is_index_dead = false;
   bool is_swapped = false;          ///< A on the line of B and the other way round
   int index_shift = 0;              ///< counts by which the index comes too late, forwards
+  int index_width = 0;              ///< counts by which the index stays high for longer
   int spurious_indices = 0;         ///< this many of the next edges of A are followed by a pulse of the index
   int dropped_edges = 0;            ///< this many of the next edges get lost and nobody tells
   int lost_edges = 0;               ///< likewise, but the kernel tells
@@ -40,6 +41,7 @@ class FakeEncoderLines {
   FakeEncoderFaults& faults() { return faults_; }
 
  private:
+  std::int64_t index_end() const;
   std::int64_t next_boundary(int direction) const;
   void cross(std::int64_t boundary, int direction, drivers::EdgeBatch& batch);
   void change(drivers::EncoderLine line, bool level, drivers::EdgeBatch& batch);
