@@ -8,7 +8,9 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <system_error>
+#include <thread>
 
 #include "drivers/gpio/file_descriptor.hpp"
 
@@ -29,6 +31,18 @@ sockaddr_un address_of(const std::string& path) {
   address.sun_family = AF_UNIX;
   path.copy(address.sun_path, sizeof(address.sun_path) - 1);
   return address;
+}
+
+// Whoever takes orders may still be about to listen.
+FileDescriptor connect_to(const std::string& path) {
+  const sockaddr_un address = address_of(path);
+  for (int waited_ms = 0;; waited_ms += kStopCheck_ms) {
+    FileDescriptor socket = make_socket();
+    if (!socket.is_open()) fail(path);
+    if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0) return socket;
+    if ((errno != ENOENT && errno != ECONNREFUSED) || waited_ms >= kPatience_ms) fail(path);
+    std::this_thread::sleep_for(std::chrono::milliseconds(kStopCheck_ms));
+  }
 }
 
 bool is_readable(int file, int timeout_ms) {
@@ -64,10 +78,7 @@ void serve_orders(const std::string& path, const OrderHandler& handle, std::stop
 }
 
 std::string send_order(const std::string& path, const std::string& order) {
-  const FileDescriptor socket = make_socket();
-  const sockaddr_un address = address_of(path);
-  if (!socket.is_open() || ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
-    fail(path);
+  const FileDescriptor socket = connect_to(path);
   send(socket.get(), order);
   errno = ETIMEDOUT;
   if (!is_readable(socket.get(), kPatience_ms)) fail(path);
