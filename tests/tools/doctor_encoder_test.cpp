@@ -121,6 +121,17 @@ TEST(DoctorCounts, edges_are_counted_by_line) {
       << check.text;
 }
 
+TEST(DoctorCounts, a_queue_too_short_for_the_wanted_speed_is_told) {
+  drivers::EncoderOptions options;
+  options.counts_per_turn = 40000;
+  CountFacts facts;
+  facts.rate_problem = drivers::edge_rate_problem(options, 0.6, 16);
+  EXPECT_EQ(judge(facts).state, State::Warning);
+  EXPECT_NE(judge(facts).text.find("disk.period_s, 3820 edges per second"), std::string::npos) << judge(facts).text;
+  EXPECT_EQ(drivers::edge_rate_problem(options, 0.6, 341), "");
+  EXPECT_EQ(drivers::edge_rate_problem(options, 0.0, 16), "");
+}
+
 TEST(DoctorCounts, a_dead_line_lost_edges_and_a_lost_chip_are_told) {
   Lines dead;
   dead.port.edges = {{0, EncoderLine::A, true}};

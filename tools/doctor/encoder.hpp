@@ -44,6 +44,7 @@ struct CountFacts {
   std::uint64_t lost_edges = 0;
   drivers::LineLevels levels;  ///< at the start
   bool is_broken = false;      ///< the port failed meanwhile
+  std::string rate_problem;    ///< why edges may get lost at the speed that is wanted; empty when none will
 };
 /// @param now  on the time line of the port's stamps.
 CountFacts count_edges(drivers::EdgePort& port, std::chrono::nanoseconds duration,

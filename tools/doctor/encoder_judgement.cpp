@@ -80,6 +80,10 @@ Check judge(const CountFacts& facts) {
   if (more >= 8 && fewer * 4 < more) {
     return failure(kName, text, "one of A and B does not follow: check its wire, its level and the line's number");
   }
+  if (!facts.rate_problem.empty()) {
+    return warning(kName, fmt::format("{}; at the speed of disk.period_s, {}", text, facts.rate_problem),
+                   "see the rates in docs/hardware.md");
+  }
   if (more == 0) return ok(kName, text + "; turn the disk by hand to see them count");
   return ok(kName, text);
 }

@@ -80,7 +80,10 @@ std::vector<Check> examine_encoder(const Situation& at) {
   if (!at.may_open()) {
     report.add(skipped("encoder-counts", kBusy));
   } else if (const auto port = at.ports.encoder()) {
-    report.add(judge(count_edges(**port, at.patience.encoder, at.ports.now)));
+    CountFacts counts = count_edges(**port, at.patience.encoder, at.ports.now);
+    counts.rate_problem =
+        drivers::edge_rate_problem(*at.robot.encoder, at.robot.disk_speed_rad_s, (*port)->queued_edges());
+    report.add(judge(counts));
   } else {
     report.add(failure("encoder-counts", port.error(), "see encoder-access and encoder-lines above"));
   }

@@ -28,6 +28,7 @@ struct Robot {
   std::string can_interface = "can0";
   int drive_node = 1;
   std::optional<drivers::EncoderOptions> encoder;  ///< empty where the drive tells the angle
+  double disk_speed_rad_s = 0.0;                   ///< at which it will turn
   ipc::BusOptions lcm;
 };
 

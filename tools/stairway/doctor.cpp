@@ -53,6 +53,7 @@ doctor::Robot robot_of(const config::Settings& settings) {
                       .can_interface = settings.motor.interface,
                       .drive_node = settings.motor.node_id,
                       .encoder = {},
+                      .disk_speed_rad_s = settings.disk.speed_rad_s(),
                       .lcm = settings.lcm};
   if (has_encoder(settings)) robot.encoder = settings.encoder;
   return robot;
