@@ -97,6 +97,22 @@ TEST_P(EncoderDriver, is_found_again_when_the_chip_was_removed_and_comes_back) {
   EXPECT_TRUE(is_indexed()) << troubles_;
 }
 
+TEST_P(EncoderDriver, finds_its_lines_by_name_and_tells_who_has_them) {
+  drivers::EncoderOptions options = options_;
+  options.line_a = "disk-a";
+  options.line_b = "disk-b";
+  options.line_index = "disk-index";
+  const auto port = drivers::open_encoder_lines(options);
+  ASSERT_TRUE(port) << port.error();
+  const auto second = drivers::open_encoder_lines(options_);
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().find("is in use by stairwayd"), std::string::npos) << second.error();
+  options.line_b = "disk-c";
+  const auto unknown = drivers::open_encoder_lines(options);
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().find("disk-c"), std::string::npos) << unknown.error();
+}
+
 INSTANTIATE_TEST_SUITE_P(Access, EncoderDriver,
                          testing::Values(drivers::GpioAccess::Kernel, drivers::GpioAccess::Libgpiod),
                          [](const testing::TestParamInfo<drivers::GpioAccess>& access) {
