@@ -28,6 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kCountsPerTurn = 1024;
 constexpr std::size_t kMeasuredTurns = 8;
+constexpr auto kStallPeriod = 100ms;  // short enough for the fastest run to have some
 
 /// Lines A, B and index of a gpio-sim chip, moved by writing their pulls.
 class Pulls {
@@ -76,6 +77,7 @@ struct Measurement {
   double reached_hz = 0.0;
   drivers::EncoderCounters counters;
   int sent = 0;  // of all three lines
+  int stalls = 0;
 };
 
 Measurement measure(const drivers::EncoderOptions& options, Pulls& pulls, double rate_hz,
@@ -91,12 +93,13 @@ Measurement measure(const drivers::EncoderOptions& options, Pulls& pulls, double
     measurement.reached_hz = turn(pulls, edges, rate_hz);
     is_done = true;
   });
-  Clock::time_point next_stall = Clock::now() + 500ms;
+  Clock::time_point next_stall = Clock::now() + kStallPeriod / 2;
   while (!is_done) {
     encoder.poll(20ms);
     if (stall > 0ms && Clock::now() >= next_stall) {
       std::this_thread::sleep_for(stall);
-      next_stall = Clock::now() + 500ms;
+      next_stall = Clock::now() + kStallPeriod;
+      ++measurement.stalls;
     }
   }
   toggler.join();
@@ -119,12 +122,12 @@ int main(int argc, char** argv) {
   app.add_option("--chip", options.chip, "The GPIO chip, its lines being A, B and index")->required();
   app.add_option("--lines", lines, "The folder of the chip with a folder for each line")->required();
   app.add_option("--rate", rates, "Edges of A and B per second; 0 is as fast as it goes");
-  app.add_option("--stall", stalls, "The reader is away for so many milliseconds, twice in a second");
+  app.add_option("--stall", stalls, "The reader is away for so many milliseconds, every 100 ms");
   CLI11_PARSE(app, argc, argv);
   try {
     Pulls pulls(lines);
-    fmt::print("{:<16} {:>8} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8}\n", "access", "stall ms", "wanted /s", "reached /s",
-               "sent", "missing", "told", "faults");
+    fmt::print("{:<16} {:>8} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "access", "stall ms", "wanted /s",
+               "reached /s", "sent", "missing", "told", "faults", "stalls");
     for (const auto access : {drivers::GpioAccess::Libgpiod, drivers::GpioAccess::Kernel}) {
       options.access = access;
       for (const int stall : stalls) {
@@ -134,10 +137,10 @@ int main(int argc, char** argv) {
           const auto faults = m.counters.count(EncoderTrouble::MissedPair) +
                               m.counters.count(EncoderTrouble::IllegalTransition) +
                               m.counters.count(EncoderTrouble::IndexDeviation);
-          fmt::print("{:<16} {:>8} {:>10} {:>10.0f} {:>8} {:>8} {:>8} {:>8}\n",
+          fmt::print("{:<16} {:>8} {:>10} {:>10.0f} {:>8} {:>8} {:>8} {:>8} {:>8}\n",
                      access == drivers::GpioAccess::Kernel ? "kernel" : drivers::libgpiod_name(), stall,
                      rate > 0.0 ? fmt::format("{:.0f}", rate) : "most", m.reached_hz, m.sent,
-                     m.sent - static_cast<int>(m.counters.edges), m.counters.lost_edges, faults);
+                     m.sent - static_cast<int>(m.counters.edges), m.counters.lost_edges, faults, m.stalls);
           std::fflush(stdout);
         }
       }

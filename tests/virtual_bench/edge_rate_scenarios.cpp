@@ -24,17 +24,17 @@ std::string run_edge_rate(const std::string& arguments) {
   return text;
 }
 
-// Every row of the kernel's interface tells that no edge is missing.
+// By the kernel's interface no edge is missing; where the reader was away for longer than its queue lasts, it is told.
 void expect_all_edges(const std::string& table) {
   std::istringstream rows(table);
   int measured = 0;
   for (std::string row; std::getline(rows, row);) {
     std::istringstream fields(row);
-    std::string access, stall, wanted, reached, sent, missing;
-    fields >> access >> stall >> wanted >> reached >> sent >> missing;
+    std::string access, stall, wanted, reached, sent, missing, told;
+    fields >> access >> stall >> wanted >> reached >> sent >> missing >> told;
     if (access != "kernel") continue;
     ++measured;
-    EXPECT_EQ(missing, "0") << row;
+    EXPECT_TRUE(missing == "0" || (stall != "0" && told != "0")) << row;
   }
   EXPECT_GT(measured, 0);
 }
