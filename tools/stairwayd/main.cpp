@@ -79,8 +79,8 @@ void reload(const CommandLine& line, daemon::LiveSettings& live, daemon::Pipelin
   daemon::log::info("settings read again");
 }
 
-int run(const CommandLine& line, const config::Settings& settings, std::unique_ptr<daemon::MeasurementSource> source) {
-  const daemon::Signals signals;
+int run(const CommandLine& line, const config::Settings& settings, const daemon::Signals& signals,
+        std::unique_ptr<daemon::MeasurementSource> source) {
   daemon::log::set_up(settings.log.level);
   const daemon::ServiceNotifier notifier;
   daemon::LiveSettings live(settings);
@@ -145,12 +145,14 @@ int run(const CommandLine& line) {
     std::puts("the settings are in order");
     return kSuccess;
   }
+  // Before the hardware: a port may start a thread, and a signal that reaches it would end the process at once.
+  const daemon::Signals signals;
   try {
     if (!source) {
       source = std::make_unique<daemon::HardwareSource>(loaded->settings, daemon::hardware_ports(loaded->settings),
                                                         daemon::utime_of_monotonic_us);
     }
-    return run(line, loaded->settings, std::move(source));
+    return run(line, loaded->settings, signals, std::move(source));
   } catch (const std::exception& error) {
     // Caught so that the source is destroyed, which stops the disk.
     return fail(kFailure, error.what());
