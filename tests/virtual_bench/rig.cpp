@@ -51,6 +51,8 @@ Rig::Rig(const fs::path& modules)
     : gadget_("/sys/kernel/config/usb_gadget/scanner"), chip_("/sys/kernel/config/gpio-sim/encoder") {
   run("modprobe -d " + modules.string() + " -a " + kDrivers);
   run("mountpoint -q /sys/kernel/config || mount -t configfs configfs /sys/kernel/config");
+  run("systemd-sysusers " SYSTEMD_FILES "/stairway.sysusers");
+  fs::copy(SYSTEMD_FILES "/60-stairway.rules", "/etc/udev/rules.d");
   run("/lib/systemd/systemd-udevd --daemon");
   run("udevadm control --ping");
   run("ip route add 224.0.0.0/4 dev lo");

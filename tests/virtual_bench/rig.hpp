@@ -15,7 +15,8 @@ class Rig {
   static constexpr const char* kBus = "can0";
   static constexpr const char* kEncoderChip = "encoder";
 
-  /// Loads the drivers and starts what devices need: udev, which tells libusb of new ones, and a route for LCM.
+  /// Loads the drivers and starts what devices need: udev, which tells libusb of new ones and sets their permissions by
+  /// this project's rules, and a route for LCM.
   /// @param modules  folder with lib/modules.
   explicit Rig(const std::filesystem::path& modules);
 
