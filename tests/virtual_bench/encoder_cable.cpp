@@ -3,7 +3,6 @@
 #include "tests/virtual_bench/encoder_cable.hpp"
 
 #include <fcntl.h>
-#include <pthread.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include <thread>
 
 #include "drivers/gpio/file_descriptor.hpp"
+#include "tests/virtual_bench/prompt_thread.hpp"
 
 namespace stairway::bench {
 namespace {
@@ -95,12 +95,6 @@ void turn(Robot& robot, Lines& lines, std::int64_t& count, const std::stop_token
       std::this_thread::sleep_for(kCatchUpPause);
     }
   }
-}
-
-// An encoder does not wait for a processor.
-void be_prompt() {
-  const sched_param parameters{.sched_priority = 10};
-  ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters);
 }
 
 }  // namespace

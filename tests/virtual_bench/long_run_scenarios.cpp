@@ -1,16 +1,22 @@
 // SPDX-FileCopyrightText: The stairwayd authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "tests/integration/daemon_process.hpp"
 #include "tests/virtual_bench/machine.hpp"
 #include "tests/virtual_bench/news.hpp"
+#include "tests/virtual_bench/prompt_thread.hpp"
 #include "tests/virtual_bench/thread_times.hpp"
 
 namespace stairway::bench {
@@ -41,15 +47,48 @@ void print_shares(const std::map<std::string, double>& before, const std::map<st
   std::fflush(stdout);
 }
 
+// How long the machine itself stood still, which its host makes it do when it is busy.
+class StillnessWatch {
+ public:
+  std::chrono::milliseconds longest() const { return longest_.load(); }
+
+ private:
+  void run(const std::stop_token& stop) {
+    be_prompt();
+    auto last = std::chrono::steady_clock::now();
+    while (!stop.stop_requested()) {
+      std::this_thread::sleep_for(10ms);
+      const auto now = std::chrono::steady_clock::now();
+      longest_ = std::max(longest_.load(), std::chrono::duration_cast<std::chrono::milliseconds>(now - last));
+      last = now;
+    }
+  }
+
+  std::atomic<std::chrono::milliseconds> longest_ = 0ms;
+  std::jthread thread_{[this](const std::stop_token& stop) { run(stop); }};
+};
+
+// Of the machine's processor, since it was started.
+double idle_time_s() {
+  std::ifstream stat("/proc/stat");
+  std::string name;
+  double user = 0.0, nice = 0.0, system = 0.0, idle = 0.0;
+  stat >> name >> user >> nice >> system >> idle;
+  return idle / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
 TEST(LongRun, streams_at_the_full_rate_without_a_lost_scan) {
   Machine::get();
   News news;
-  test::DaemonProcess daemon({"--config", BENCH_SETTINGS});
+  // As fast as a robot turns it.
+  test::DaemonProcess daemon({"--config", BENCH_SETTINGS, "--set", "disk.period_s=35"});
   ASSERT_TRUE(news.wait(60s, [](const Heard& heard) { return heard.health && heard.health->state == "scanning"; }));
   news.clear();
   ASSERT_TRUE(news.wait(60s, [](const Heard& heard) { return heard.scans > 0 && heard.health; }));
 
+  const StillnessWatch stillness;
   const Heard at_start = news.heard();
+  const double idle_at_start_s = idle_time_s();
   const auto times_at_start = thread_times_s(daemon.id());
   const auto start = std::chrono::steady_clock::now();
   std::this_thread::sleep_for(duration());
@@ -61,6 +100,9 @@ TEST(LongRun, streams_at_the_full_rate_without_a_lost_scan) {
   std::printf("%lld scans in %.0f s: %.2f a second; %lld lost, %lld answers\n", static_cast<long long>(scans),
               elapsed_s, static_cast<double>(scans) / elapsed_s, static_cast<long long>(at_end.missing_scans),
               static_cast<long long>(at_end.answers));
+  std::printf("the machine was idle for %.0f %% of the time, and stood still for at most %lld ms\n",
+              100.0 * (idle_time_s() - idle_at_start_s) / elapsed_s,
+              static_cast<long long>(stillness.longest().count()));
   print_shares(times_at_start, times_at_end, elapsed_s);
   EXPECT_NEAR(static_cast<double>(scans) / elapsed_s, 40.0, 0.4);
   EXPECT_EQ(at_end.missing_scans, 0);
