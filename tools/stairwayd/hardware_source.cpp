@@ -14,7 +14,7 @@
 #include "drivers/utm30lx.hpp"
 #include "tools/stairwayd/log.hpp"
 #include "tools/stairwayd/sync_pulse_reader.hpp"
-#include "tools/stairwayd/thread_name.hpp"
+#include "tools/stairwayd/this_thread.hpp"
 
 namespace stairway::daemon {
 namespace {

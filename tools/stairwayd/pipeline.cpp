@@ -11,7 +11,7 @@
 #include "ipc/message_codec.hpp"
 #include "tools/common/stage_timer.hpp"
 #include "tools/stairwayd/log.hpp"
-#include "tools/stairwayd/thread_name.hpp"
+#include "tools/stairwayd/this_thread.hpp"
 
 namespace stairway::daemon {
 namespace {
@@ -121,6 +121,8 @@ void Pipeline::hand_over(scan::Sweep sweep) {
 
 void Pipeline::detect(std::stop_token stop) {
   name_this_thread("detection");
+  // It computes for seconds; the devices and the robot's controller cannot wait.
+  let_others_go_first();
   while (auto job = sweeps_.pop(stop)) {
     pass_began_ = Clock::now().time_since_epoch().count();
     try {
