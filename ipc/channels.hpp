@@ -20,15 +20,19 @@ struct Channels {
   explicit Channels(const std::string& prefix = BusOptions{}.channel_prefix)
       : scan(prefix + "SCAN"),
         disk(prefix + "DISK"),
+        angles(prefix + "ANGLES"),
         stairways(prefix + "STAIRWAYS"),
         health(prefix + "HEALTH"),
-        settings(prefix + "SETTINGS") {}
+        settings(prefix + "SETTINGS"),
+        raw(prefix + "RAW") {}
 
   std::string scan;       ///< scan_t
   std::string disk;       ///< disk_t
+  std::string angles;     ///< angles_t
   std::string stairways;  ///< stairways_t
   std::string health;     ///< health_t
   std::string settings;   ///< settings_t
+  std::string raw;        ///< the bytes of the devices as they came, by whatever program sends them
 };
 
 }  // namespace stairway::ipc

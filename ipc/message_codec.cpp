@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <stairway/angles_t.hpp>
 #include <stairway/disk_t.hpp>
 #include <stairway/health_t.hpp>
 #include <stairway/scan_t.hpp>
@@ -30,6 +31,13 @@ bool has_layout(std::span<const std::uint8_t> bytes, const scan_t*) {
 
 bool has_layout(std::span<const std::uint8_t> bytes, const disk_t*) {
   return MessageWalker(bytes).skip(kFingerprint + 4 * kWord + 1 + kWord + 1).text().ends_here();
+}
+
+bool has_layout(std::span<const std::uint8_t> bytes, const angles_t*) {
+  MessageWalker walker(bytes);
+  walker.skip(kFingerprint + 2 * kWord);
+  const std::size_t angles = walker.count();
+  return walker.skip(angles * (2 * kWord + 1)).ends_here();
 }
 
 void walk_stairway(MessageWalker& walker) {
@@ -287,6 +295,30 @@ tl::expected<DiskMessage, MessageFault> decode<DiskMessage>(std::span<const std:
   return message;
 }
 
+Bytes encode(const AnglesMessage& message) {
+  angles_t wire{};
+  wire.utime = message.utime_us;
+  wire.scan_stamp_ns = message.scan_stamp_ns;
+  wire.num_angles = static_cast<std::int32_t>(message.samples.size());
+  for (const drivers::AngleSample& sample : message.samples) {
+    wire.stamps_ns.push_back(sample.stamp_ns);
+    wire.angles_rad.push_back(sample.angle_rad);
+    wire.valid.push_back(sample.valid);
+  }
+  return to_bytes(wire);
+}
+
+template <>
+tl::expected<AnglesMessage, MessageFault> decode<AnglesMessage>(std::span<const std::uint8_t> bytes) {
+  const auto wire = from_bytes<angles_t>(bytes);
+  if (!wire) return tl::unexpected(wire.error());
+  AnglesMessage message{wire->utime, wire->scan_stamp_ns, {}};
+  message.samples.reserve(wire->stamps_ns.size());
+  for (std::size_t i = 0; i < wire->stamps_ns.size(); ++i)
+    message.samples.push_back({wire->stamps_ns[i], wire->angles_rad[i], wire->valid[i] != 0});
+  return message;
+}
+
 Bytes encode(const StairwaysMessage& message) {
   stairways_t wire{};
   wire.utime = message.utime_us;
@@ -390,6 +422,13 @@ tl::expected<SettingsMessage, MessageFault> decode<SettingsMessage>(std::span<co
   const auto wire = from_bytes<settings_t>(bytes);
   if (!wire) return tl::unexpected(wire.error());
   return SettingsMessage{wire->utime, wire->version, wire->toml};
+}
+
+std::optional<std::int64_t> message_utime_us(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < kFingerprint + kWord) return std::nullopt;
+  std::int64_t utime_us = 0;
+  __int64_t_decode_array(bytes.data(), kFingerprint, kWord, &utime_us, 1);
+  return utime_us;
 }
 
 }  // namespace stairway::ipc

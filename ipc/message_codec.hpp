@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -26,6 +27,7 @@ using Bytes = std::vector<std::uint8_t>;
 /// sent as long as its `ranges_m`, missing statuses as Invalid.
 Bytes encode(const ScanMessage& message);
 Bytes encode(const DiskMessage& message);
+Bytes encode(const AnglesMessage& message);
 Bytes encode(const StairwaysMessage& message);
 Bytes encode(const HealthMessage& message);
 Bytes encode(const SettingsMessage& message);
@@ -40,10 +42,15 @@ tl::expected<ScanMessage, MessageFault> decode<ScanMessage>(std::span<const std:
 template <>
 tl::expected<DiskMessage, MessageFault> decode<DiskMessage>(std::span<const std::uint8_t> bytes);
 template <>
+tl::expected<AnglesMessage, MessageFault> decode<AnglesMessage>(std::span<const std::uint8_t> bytes);
+template <>
 tl::expected<StairwaysMessage, MessageFault> decode<StairwaysMessage>(std::span<const std::uint8_t> bytes);
 template <>
 tl::expected<HealthMessage, MessageFault> decode<HealthMessage>(std::span<const std::uint8_t> bytes);
 template <>
 tl::expected<SettingsMessage, MessageFault> decode<SettingsMessage>(std::span<const std::uint8_t> bytes);
+
+/// The `utime` with which every message of ours begins, without a look at the rest; empty if there are too few bytes.
+std::optional<std::int64_t> message_utime_us(std::span<const std::uint8_t> bytes);
 
 }  // namespace stairway::ipc

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,14 @@ struct DiskMessage {
   std::int64_t index_count = 0;
   DiskFault fault = DiskFault::None;
   std::string fault_text;
+};
+
+/// angles_t
+struct AnglesMessage {
+  std::int64_t utime_us = 0;
+  /// Of the newest scan that was there when the angles were taken; before the first, the smallest number.
+  drivers::HostStamp scan_stamp_ns = std::numeric_limits<drivers::HostStamp>::min();
+  std::vector<drivers::AngleSample> samples;
 };
 
 /// stairways_t

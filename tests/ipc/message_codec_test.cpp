@@ -10,6 +10,7 @@ namespace stairway::ipc {
 namespace {
 
 const DiskMessage kDisk{1, {2, -3.5, true}, 0.18, 12, DiskFault::Motor, "drive silent for 1.2 s"};
+const AnglesMessage kAngles{-7, 123'456'789, {{1, -0.1, true}, {2, 1.0 / 3.0, false}, {3, 1e300, true}}};
 const HealthMessage kHealth{1,
                             "scanning",
                             3,
@@ -167,10 +168,27 @@ void expect_error_for_every_other_length(const Message& message) {
   EXPECT_EQ(decode<Message>(longer).error(), MessageFault::BadSize);
 }
 
+TEST(MessageCodec, angles_come_back_bit_for_bit) {
+  const AnglesMessage& sent = kAngles;
+  const auto got = decode<AnglesMessage>(encode(sent));
+  ASSERT_TRUE(got) << to_string(got.error());
+  EXPECT_EQ(got->utime_us, sent.utime_us);
+  EXPECT_EQ(got->scan_stamp_ns, sent.scan_stamp_ns);
+  ASSERT_EQ(got->samples.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(got->samples[i].stamp_ns, sent.samples[i].stamp_ns);
+    EXPECT_EQ(got->samples[i].angle_rad, sent.samples[i].angle_rad);
+    EXPECT_EQ(got->samples[i].valid, sent.samples[i].valid);
+  }
+  EXPECT_EQ(message_utime_us(encode(sent)), -7);
+  EXPECT_EQ(message_utime_us({}), std::nullopt);
+}
+
 TEST(MessageCodec, cut_or_longer_message_is_an_error) {
   expect_error_for_every_other_length(test::sample_stairways());
   expect_error_for_every_other_length(test::sample_scan());
   expect_error_for_every_other_length(kDisk);
+  expect_error_for_every_other_length(kAngles);
   expect_error_for_every_other_length(kHealth);
   expect_error_for_every_other_length(kSettings);
 }
@@ -197,6 +215,7 @@ TEST(MessageCodec, damaged_message_gives_an_error_or_one_of_the_same_size) {
   scan.scan.ranges_m.resize(20);
   expect_survival_of_damage(scan);
   expect_survival_of_damage(kDisk);
+  expect_survival_of_damage(kAngles);
   expect_survival_of_damage(kHealth);
   expect_survival_of_damage(kSettings);
 }
