@@ -83,7 +83,7 @@ std::string unknown_key(const std::vector<Entry>& table, const std::string& key)
 bool put(const RealField& field, const toml::node& node) {
   const auto value = node.value<double>();
   if (!node.is_number() || !value || !(*value >= field.min && *value <= field.max)) return false;
-  *field.value = *value * field.unit.in_struct;
+  *field.value = field.unit.to_struct(*value);
   return true;
 }
 

@@ -22,6 +22,7 @@ std::string Settings::problem() const {
       {"lidar", sync_input.problem()},  {"disk", disk.problem()},   {"motor", motor.problem()},
       {"encoder", encoder.problem()},   {"mount", mount.problem()}, {"sweep", sweep.problem()},
       {"detector", detector.problem()}, {"input", input.problem()}, {"simulate", simulate.problem()},
+      {"record", record.problem()},
   };
   for (const auto& [section, problem] : problems) {
     if (!problem.empty()) return std::string(section) + ": " + problem;

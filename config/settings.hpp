@@ -15,6 +15,7 @@
 #include "drivers/scip/sync_input.hpp"
 #include "drivers/usb/usb_options.hpp"
 #include "ipc/channels.hpp"
+#include "ipc/recording/record_options.hpp"
 #include "scan_assembly/frames.hpp"
 #include "scan_assembly/sweep_assembler.hpp"
 
@@ -46,6 +47,10 @@ struct SimulationOptions {
   std::string problem() const;
 };
 
+struct ReplayOptions {
+  double speed = 1.0;  ///< recorded seconds per second; 0 is as fast as possible
+};
+
 enum class LogLevel { Error, Warning, Info, Debug };
 
 struct LogOptions {
@@ -69,6 +74,8 @@ struct Settings {
   detect::DetectorOptions detector;
   InputOptions input;
   SimulationOptions simulate;
+  ipc::RecordOptions record;
+  ReplayOptions replay;
 
   /// First problem of any part, beginning with the section it is in; empty when usable.
   std::string problem() const;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "config/section.hpp"
 
@@ -199,6 +200,22 @@ std::string show_real(double value) {
   return fmt::format("{:.6g}", value + 0.0);  // turns -0 into 0
 }
 
+// As few digits as give the same value when they are read again. Some values have no such digits in the file's unit;
+// theirs come as near as a double can.
+std::string show_exact_real(const RealField& field) {
+  const double in_file = *field.value / field.unit.in_struct + 0.0;
+  for (const int digits : {6, 9, 12, 15, 16}) {
+    const std::string text = fmt::format("{:.{}g}", in_file, digits);
+    if (field.unit.to_struct(std::strtod(text.c_str(), nullptr)) == *field.value) return text;
+  }
+  return fmt::format("{:.17g}", in_file);
+}
+
+std::string show_exact_value(const Entry& entry) {
+  const auto* real = std::get_if<RealField>(&entry.field);
+  return real != nullptr ? show_exact_real(*real) : show_value(entry);
+}
+
 std::string show_text(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -235,6 +252,25 @@ void write_sections(const std::vector<Entry>& table, WriteSection write_section,
   }
 }
 
+void add_record_settings(std::vector<Entry>& table, ipc::RecordOptions& record) {
+  Section(table, "record")
+      .choice("mode", record.mode, {"off", "continuous", "snapshot"},
+              "record all messages, or keep the last sweeps for a request (SIGUSR2)")
+      .text("folder", record.folder, "where recordings go")
+      .on_off("raw", record.raw, "bytes of the devices too, if they are sent")
+      .whole("max_file_mb", record.max_file_mb, 1, 100000, "size at which a new file is begun, in MB")
+      .real("max_file", record.max_file_s, kSecond, {1, 100000}, "age at which a new file is begun")
+      .whole("max_total_mb", record.max_total_mb, 1, 1000000, "the oldest files go to keep all below this, in MB")
+      .whole("min_free_mb", record.min_free_mb, 0, 1000000, "recording pauses while the disk has less left, in MB")
+      .whole("snapshot_sweeps", record.snapshot_sweeps, 1, 1000, "sweeps in a snapshot")
+      .whole("snapshot_memory_mb", record.snapshot_memory_mb, 1, 100000, "most memory for them, in MB");
+}
+
+void add_replay_settings(std::vector<Entry>& table, ReplayOptions& replay) {
+  Section(table, "replay")
+      .real("speed", replay.speed, kPlain, {0, 1000}, "recorded seconds per second; 0 is as fast as possible");
+}
+
 }  // namespace
 
 std::vector<Entry> settings_table(Settings& settings) {
@@ -254,6 +290,8 @@ std::vector<Entry> settings_table(Settings& settings) {
   add_detector_settings(table, settings.detector);
   add_input_settings(table, settings.input);
   add_simulation_settings(table, settings.simulate);
+  add_record_settings(table, settings.record);
+  add_replay_settings(table, settings.replay);
   return table;
 }
 
@@ -308,7 +346,9 @@ std::string to_toml(const Settings& settings) {
   std::string out;
   write_sections(
       settings_table(copy), [&](const std::string& section) { out += fmt::format("\n[{}]\n", section); },
-      [&](const Entry& entry, const std::string& name) { out += fmt::format("{} = {}\n", name, show_value(entry)); });
+      [&](const Entry& entry, const std::string& name) {
+        out += fmt::format("{} = {}\n", name, show_exact_value(entry));
+      });
   return out;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -17,6 +18,12 @@ namespace stairway::config {
 struct Unit {
   std::string_view name;  ///< "" for a plain number
   double in_struct = 1.0;
+
+  /// A thousandth is no binary number: 700 mm are 700 / 1000 m, to the last bit the 0.7 of a struct.
+  double to_struct(double in_file) const {
+    const double inverse = std::round(1.0 / in_struct);
+    return in_struct < 1.0 && 1.0 / inverse == in_struct ? in_file / inverse : in_file * in_struct;
+  }
 };
 
 struct RealField {
@@ -66,7 +73,8 @@ std::string describe_range(const Entry& entry);
 /// The text of config/stairwayd.toml: every key, commented out with its default.
 std::string default_file_text();
 
-/// A settings file that sets every key to what it is in `settings`.
+/// A settings file that sets every key to what it is in `settings`; reals with as many digits as they need to be the
+/// same when the file is read.
 std::string to_toml(const Settings& settings);
 
 }  // namespace stairway::config

@@ -52,6 +52,8 @@ TEST(Options, every_member_has_a_key) {
       {"lcm", count_members<ipc::BusOptions>(), 0},
       {"simulate", count_members<SimulationOptions>(), 0},
       {"disk", count_members<drivers::DiskOptions>(), 0},
+      {"record", count_members<ipc::RecordOptions>(), 0},
+      {"replay", count_members<ReplayOptions>(), 0},
       {"mount", count_members<scan::MountOptions>(), 0},
       {"sweep", count_members<scan::SweepOptions>() + count_members<scan::AngleTrackOptions>(), 1},
       {"detector", count_members<DetectorOptions>(), 7},
