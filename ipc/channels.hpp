@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace stairway::ipc {
 
@@ -15,15 +16,19 @@ struct BusOptions {
   std::string problem() const;
 };
 
+/// What the names of the channels that a recording is played from end in.
+inline constexpr std::string_view kScanChannelName = "SCAN", kAnglesChannelName = "ANGLES",
+                                  kSettingsChannelName = "SETTINGS";
+
 /// The names of the channels; the type of each is in ipc/types.
 struct Channels {
   explicit Channels(const std::string& prefix = BusOptions{}.channel_prefix)
-      : scan(prefix + "SCAN"),
+      : scan(prefix + std::string(kScanChannelName)),
         disk(prefix + "DISK"),
-        angles(prefix + "ANGLES"),
+        angles(prefix + std::string(kAnglesChannelName)),
         stairways(prefix + "STAIRWAYS"),
         health(prefix + "HEALTH"),
-        settings(prefix + "SETTINGS"),
+        settings(prefix + std::string(kSettingsChannelName)),
         raw(prefix + "RAW") {}
 
   std::string scan;       ///< scan_t

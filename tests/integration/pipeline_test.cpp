@@ -120,8 +120,7 @@ TEST_F(PipelineTest, every_sweep_has_an_answer_even_without_stairways) {
 TEST_F(PipelineTest, scans_bear_the_disk_angles_of_their_ends) {
   const auto pipeline = start(turning_events(10));
   const auto scans = [&] { return outbox.sent<ipc::ScanMessage>(kChannels.scan); };
-  // The last one waits for the next angle to arrive together with the next scan.
-  ASSERT_TRUE(comes_true([&] { return scans().size() == 9; }));
+  ASSERT_TRUE(comes_true([&] { return scans().size() == 10; }));
   const ipc::ScanMessage scan = scans()[4];
   EXPECT_EQ(scan.scan.sequence, 4u);
   EXPECT_EQ(scan.utime_us, 1'000'000 + 4 * 25'000);

@@ -40,6 +40,12 @@ void HealthBook::note_stop() {
   is_stopped_ = true;
 }
 
+void HealthBook::note(const ipc::RecorderStatus& recording) {
+  const std::lock_guard lock(mutex_);
+  recording_trouble_ = recording.trouble;
+  if (recording.lost_events > 0) counts_["unrecorded-messages"] = static_cast<std::int64_t>(recording.lost_events);
+}
+
 void HealthBook::note_scan(const drivers::LaserScan& scan) {
   const auto points = std::ranges::count(scan.statuses, drivers::BeamStatus::Ok);
   const std::lock_guard lock(mutex_);
@@ -110,6 +116,10 @@ ipc::HealthMessage HealthBook::report(Clock::time_point now, std::int64_t utime_
 }
 
 std::string HealthBook::state_text() const {
+  return measurement_text() + (recording_trouble_.empty() ? "" : "; not recording: " + recording_trouble_);
+}
+
+std::string HealthBook::measurement_text() const {
   if (is_stopped_) return "stopped";
   if (devices_.empty()) return "starting";
   if (std::string text = failures(); !text.empty()) return text;

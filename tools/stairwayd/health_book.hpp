@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "ipc/messages.hpp"
+#include "ipc/recording/recorder.hpp"
 #include "scan_assembly/angle_track.hpp"
 #include "scan_assembly/sweep_assembler.hpp"
 #include "tools/stairwayd/measurement_source.hpp"
@@ -29,6 +30,7 @@ class HealthBook {
   /// A device gave data.
   void note_sign(Device device, Clock::time_point now);
   void note_stop();
+  void note(const ipc::RecorderStatus& recording);
   void note_scan(const drivers::LaserScan& scan);
   void note_angles(std::size_t samples, const scan::AngleTrack& track);
   void note_sweep(const scan::Sweep& sweep);
@@ -49,6 +51,7 @@ class HealthBook {
   };
 
   std::string state_text() const;
+  std::string measurement_text() const;
   std::string failures() const;
   ipc::DeviceHealth device_health(Device device, const DeviceEntry& entry, Clock::time_point now) const;
 
@@ -57,6 +60,7 @@ class HealthBook {
   std::map<Device, DeviceEntry> devices_;  // those that were told of
   std::optional<drivers::ClockQuality> clock_;
   bool is_stopped_ = false;
+  std::string recording_trouble_;
   std::uint64_t scans_ = 0;   // since the last report, like
   std::uint64_t angles_ = 0;  // these
   std::int64_t sweep_ = 0;

@@ -10,12 +10,17 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/load_settings.hpp"
+#include "ipc/recording/recorder.hpp"
+#include "tools/recording/recorded_measurements.hpp"
+#include "tools/recording/recorded_settings.hpp"
 #include "tools/sim/scene_file.hpp"
 #include "tools/stairwayd/hardware_source.hpp"
 #include "tools/stairwayd/live_settings.hpp"
@@ -23,6 +28,7 @@
 #include "tools/stairwayd/pass_log.hpp"
 #include "tools/stairwayd/patient_publisher.hpp"
 #include "tools/stairwayd/pipeline.hpp"
+#include "tools/stairwayd/replay_source.hpp"
 #include "tools/stairwayd/service_notifier.hpp"
 #include "tools/stairwayd/signals.hpp"
 #include "tools/stairwayd/simulated_source.hpp"
@@ -42,20 +48,28 @@ constexpr auto kReportInterval = 1s;
 constexpr const char* kFooter =
     "Settings: the defaults, then the file, then *.toml in the folder conf.d beside it in their order, then --set.\n"
     "Without --config the file is /etc/stairwayd/stairwayd.toml if it exists. SIGHUP reads them again.\n\n"
-    "Exit codes: 0 ended by SIGTERM, SIGINT or --once; 1 failure; 2 wrong usage; 78 bad settings.\n\n"
-    "Without --simulate it runs on the scanner (USB), the disk motor (CAN) and the encoder (GPIO) that the settings\n"
-    "name, and waits for those that are missing; stairway doctor says what is wrong with them.\n\n"
-    "Example: stairwayd --simulate=straight-flight --set simulate.speed=0 --once";
+    "A recording is replayed with its own mount, sweep and detector, or with --config's; --set changes either. The\n"
+    "daemon ends with it. SIGUSR2 writes a snapshot of the last sweeps (record.mode = \"snapshot\").\n\n"
+    "Without --simulate and --replay it runs on the scanner (USB), the disk motor (CAN) and the encoder (GPIO) that the\n"
+    "settings name, and waits for those that are missing; stairway doctor says what is wrong with them.\n\n"
+    "Exit codes: 0 ended by SIGTERM, SIGINT, --once or the end of a recording; 1 failure; 2 wrong usage; 78 bad\n"
+    "settings.\n\n"
+    "Examples:\n"
+    "  stairwayd --simulate=straight-flight --set simulate.speed=0 --once\n"
+    "  stairwayd --replay stairway-000012.lcm --set replay.speed=0 --set detector.voxel_mm=20";
 
 struct CommandLine {
   std::string config;
   std::vector<std::string> assignments;
+  std::string replay;
   bool is_simulation = false;
   bool is_check = false;
   bool is_once = false;
 };
 
 config::SettingsSources settings_sources(const CommandLine& line) {
+  // What this machine is set to does not concern a recording.
+  if (!line.replay.empty() && line.config.empty()) return {{}, line.assignments};
   return {config::usual_files(line.config), line.assignments};
 }
 
@@ -67,6 +81,24 @@ int fail(int exit_code, const std::string& text) {
 std::int64_t utime_now_us() {
   const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::microseconds>(since_epoch).count();
+}
+
+std::unique_ptr<ipc::Recorder> make_recorder(const config::Settings& settings) {
+  if (settings.record.mode == ipc::RecordMode::Off) return nullptr;
+  daemon::log::info(fmt::format("recordings go to {}", settings.record.folder));
+  return std::make_unique<ipc::Recorder>(settings.record, ipc::Channels(settings.lcm.channel_prefix));
+}
+
+void take_snapshot(ipc::Recorder* recorder) {
+  if (recorder != nullptr && recorder->request_snapshot()) return daemon::log::info("writing a snapshot");
+  daemon::log::warning("there is no snapshot to write; it takes record.mode = \"snapshot\"");
+}
+
+void note_recording(const ipc::Recorder* recorder, daemon::Pipeline& pipeline) {
+  if (recorder == nullptr) return;
+  const ipc::RecorderStatus status = recorder->status();
+  if (!status.trouble.empty()) daemon::log::repeated_warning("recording", "not recording: " + status.trouble);
+  pipeline.note_recording(status);
 }
 
 void reload(const CommandLine& line, daemon::LiveSettings& live, daemon::Pipeline& pipeline) {
@@ -85,7 +117,9 @@ int run(const CommandLine& line, const config::Settings& settings, const daemon:
   const daemon::ServiceNotifier notifier;
   daemon::LiveSettings live(settings);
   daemon::PatientPublisher bus(settings.lcm.url);
+  const auto recorder = make_recorder(settings);
   const auto publish = [&](const std::string& channel, std::span<const std::uint8_t> bytes) {
+    if (recorder) recorder->add(channel, bytes, utime_now_us());
     return bus.publish(channel, bytes);
   };
   daemon::PassLog pass_log;
@@ -112,7 +146,12 @@ int run(const CommandLine& line, const config::Settings& settings, const daemon:
       case daemon::Wakeup::Called:
         is_running = !(line.is_once && is_answered);
         break;
+      case daemon::Wakeup::Snapshot:
+        take_snapshot(recorder.get());
+        break;
       case daemon::Wakeup::Timeout:
+        is_running = !pipeline.has_ended();
+        note_recording(recorder.get(), pipeline);
         next_report = std::max(next_report + kReportInterval, Clock::now());
         notifier.send("STATUS=" + pipeline.report().state);
         if (pipeline.has_progressed()) notifier.send("WATCHDOG=1");
@@ -121,6 +160,7 @@ int run(const CommandLine& line, const config::Settings& settings, const daemon:
   }
   notifier.send("STOPPING=1");
   const bool is_ended = pipeline.stop();
+  if (recorder) recorder->close();
   bus.close();
   daemon::log::info("stopped");
   // Nobody wants the answer of the pass under way, and systemd does not wait for it.
@@ -128,10 +168,38 @@ int run(const CommandLine& line, const config::Settings& settings, const daemon:
   return kSuccess;
 }
 
-int run(const CommandLine& line) {
+/// Puts the recording's settings in front of those of the command line.
+tl::expected<tools::RecordingFacts, ipc::LogError> prepare_replay(CommandLine& line) {
+  auto facts = tools::examine_recording(line.replay);
+  if (!facts || !line.config.empty()) return facts;
+  if (!facts->settings) {
+    std::fputs(
+        fmt::format("stairwayd: {}: it does not tell its settings; the defaults are used\n", line.replay).c_str(),
+        stderr);
+    return facts;
+  }
+  const tools::RecordedSettings recorded = tools::recorded_settings(facts->settings->toml);
+  for (const std::string& key : recorded.unknown_keys)
+    std::fputs(fmt::format("stairwayd: {}: this version has no setting {}\n", line.replay, key).c_str(), stderr);
+  line.assignments.insert(line.assignments.begin(), recorded.assignments.begin(), recorded.assignments.end());
+  return facts;
+}
+
+int run(CommandLine line) {
+  std::optional<tools::RecordingFacts> recording;
+  if (!line.replay.empty()) {
+    auto facts = prepare_replay(line);
+    if (!facts) return fail(kFailure, facts.error().text);
+    recording = std::move(*facts);
+  }
   const auto loaded = config::load_settings(settings_sources(line));
   if (!loaded) return fail(kBadSettings, loaded.error().text);
   std::unique_ptr<daemon::MeasurementSource> source;
+  if (recording) {
+    auto replay = daemon::ReplaySource::open(line.replay, *recording, loaded->settings.replay.speed);
+    if (!replay) return fail(kFailure, replay.error().text);
+    source = std::move(*replay);
+  }
   try {
     if (line.is_simulation) {
       source = std::make_unique<daemon::SimulatedSource>(loaded->settings, utime_now_us());
@@ -177,6 +245,9 @@ int main(int argc, char** argv) {
       app.add_option("--simulate", scene, "Run on a simulated robot, in a shipped scene or a scene file")
           ->type_name("[SCENE]")
           ->expected(0, 1);
+  app.add_option("--replay", line.replay, "Play a recording instead, as fast as replay.speed says")
+      ->type_name("FILE")
+      ->excludes(simulate);
   app.add_flag("--check-config", line.is_check, "Say whether the settings are in order, and exit");
   app.add_flag("--once", line.is_once, "Exit after the first sweep's answer has been sent");
   app.add_option("--log-level", log_level, "error, warning, info or debug")->type_name("LEVEL");
@@ -188,5 +259,5 @@ int main(int argc, char** argv) {
   line.is_simulation = simulate->count() > 0;
   if (!scene.empty()) line.assignments.push_back("simulate.scene=" + scene);
   if (!log_level.empty()) line.assignments.push_back("log.level=" + log_level);
-  return run(line);
+  return run(std::move(line));
 }

@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kMaxWaiting = 40;
 constexpr drivers::HostStamp kDiskInterval_ns = 100'000'000;
 constexpr drivers::HostStamp kFreshAngle_ns = 250'000'000;
+constexpr drivers::HostStamp kAnglesInterval_ns = 20'000'000;  // one by one they would be hundreds of messages a second
 
 drivers::HostStamp last_beam_ns(const drivers::LaserScan& scan) {
   return scan::beam_stamp_ns(scan, std::max<std::size_t>(1, scan.ranges_m.size()) - 1);
@@ -27,19 +28,36 @@ MeasurementPublisher::MeasurementPublisher(ipc::Channels channels, Publish publi
     : channels_(std::move(channels)), publish_(std::move(publish)), utime_us_(std::move(utime_us)) {}
 
 void MeasurementPublisher::add(drivers::LaserScan scan, const scan::AngleTrack& track) {
+  send_angles();
+  angles_.scan_stamp_ns = scan.first_beam_stamp_ns;
   waiting_.push_back(std::move(scan));
-  const auto newest_ns = track.newest_ns();
-  while (newest_ns && !waiting_.empty() && last_beam_ns(waiting_.front()) <= *newest_ns) send_oldest(track);
+  send_known(track);
   if (waiting_.size() > kMaxWaiting) send_oldest(track);
 }
 
 void MeasurementPublisher::add(std::span<const drivers::AngleSample> samples, const scan::AngleTrack& track) {
   for (const drivers::AngleSample& sample : samples) {
     last_sample_ = sample;
+    auto& unsent = angles_.samples;
+    if (!unsent.empty() && sample.stamp_ns - unsent.front().stamp_ns >= kAnglesInterval_ns) send_angles();
+    unsent.push_back(sample);
     if (last_disk_ns_ && sample.stamp_ns - *last_disk_ns_ < kDiskInterval_ns) continue;
     last_disk_ns_ = sample.stamp_ns;
     send(sample, track);
   }
+  send_known(track);
+}
+
+void MeasurementPublisher::send_known(const scan::AngleTrack& track) {
+  const auto newest_ns = track.newest_ns();
+  while (newest_ns && !waiting_.empty() && last_beam_ns(waiting_.front()) <= *newest_ns) send_oldest(track);
+}
+
+void MeasurementPublisher::send_angles() {
+  if (angles_.samples.empty()) return;
+  angles_.utime_us = utime_us_(angles_.samples.front().stamp_ns);
+  publish_(channels_.angles, ipc::encode(angles_));
+  angles_.samples.clear();
 }
 
 void MeasurementPublisher::note(const SourceState& state, const scan::AngleTrack& track) {
@@ -63,6 +81,7 @@ DiskProblem MeasurementPublisher::disk_problem() const {
 }
 
 void MeasurementPublisher::send_oldest(const scan::AngleTrack& track) {
+  send_angles();
   ipc::ScanMessage message;
   message.scan = std::move(waiting_.front());
   waiting_.pop_front();

@@ -27,8 +27,8 @@ struct DiskProblem {
   bool operator==(const DiskProblem&) const = default;
 };
 
-/// Sends every scan as soon as the disk angle at its last beam is known, and the disk's angle ten times in a second of
-/// measurement time.
+/// Sends every scan as soon as the disk angle at its last beam is known, every angle in front of the scan that needs
+/// it, and the disk's angle ten times in a second of measurement time.
 class MeasurementPublisher {
  public:
   using Utime = std::function<std::int64_t(drivers::HostStamp)>;
@@ -43,7 +43,9 @@ class MeasurementPublisher {
   void note(const SourceState& state, const scan::AngleTrack& track);
 
  private:
+  void send_known(const scan::AngleTrack& track);
   void send_oldest(const scan::AngleTrack& track);
+  void send_angles();
   void send(const drivers::AngleSample& sample, const scan::AngleTrack& track);
   DiskProblem disk_problem() const;
 
@@ -51,6 +53,7 @@ class MeasurementPublisher {
   Publish publish_;
   Utime utime_us_;
   std::deque<drivers::LaserScan> waiting_;
+  ipc::AnglesMessage angles_;  // not sent yet
   std::optional<drivers::HostStamp> last_disk_ns_;
   drivers::AngleSample last_sample_;
   std::map<Device, std::string> failures_;

@@ -76,6 +76,13 @@ class MeasurementSource {
 
   /// The instant of a stamp in microseconds since the epoch.
   virtual std::int64_t utime_us(drivers::HostStamp stamp_ns) const = 0;
+
+  /// Whether its time is its own, so that it may be kept waiting while the detector is busy. Devices do not wait: of
+  /// their sweeps the detector gets the newest.
+  virtual bool waits_for_detector() const { return false; }
+
+  /// Whether nothing will come any more.
+  virtual bool has_ended() const { return false; }
 };
 
 }  // namespace stairway::daemon

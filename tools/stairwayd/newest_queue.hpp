@@ -32,12 +32,29 @@ class NewestQueue {
     return is_roomy;
   }
 
-  /// Waits for a value; empty when asked to stop.
+  /// Waits until a value can be pushed without dropping one; false when asked to stop.
+  bool wait_for_room(std::stop_token stop) {
+    std::unique_lock lock(mutex_);
+    return taken_.wait(lock, stop, [this] { return values_.size() < capacity_; });
+  }
+
+  /// No more values come: the takers get those that wait, then none.
+  void close() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_closed_ = true;
+    }
+    arrived_.notify_all();
+  }
+
+  /// Waits for a value; empty when asked to stop, or closed and empty.
   std::optional<T> pop(std::stop_token stop) {
     std::unique_lock lock(mutex_);
-    if (!arrived_.wait(lock, stop, [this] { return !values_.empty(); }) || stop.stop_requested()) return std::nullopt;
+    arrived_.wait(lock, stop, [this] { return !values_.empty() || is_closed_; });
+    if (stop.stop_requested() || values_.empty()) return std::nullopt;
     T value = std::move(values_.front());
     values_.pop_front();
+    taken_.notify_one();
     return value;
   }
 
@@ -46,6 +63,8 @@ class NewestQueue {
   std::deque<T> values_;
   std::mutex mutex_;
   std::condition_variable_any arrived_;
+  std::condition_variable_any taken_;
+  bool is_closed_ = false;
 };
 
 }  // namespace stairway::daemon

@@ -69,14 +69,15 @@ bool Pipeline::stop() {
 
 void Pipeline::acquire(std::stop_token stop) {
   name_this_thread("acquisition");
-  while (!stop.stop_requested()) {
+  while (!stop.stop_requested() && !source_->has_ended()) {
     for (SourceEvent& event : source_->read(kReadTimeout)) {
       std::visit([this](auto& what) { take(std::move(what)); }, event);
-      while (auto sweep = assembler_.take_sweep()) hand_over(std::move(*sweep));
+      while (auto sweep = assembler_.take_sweep()) hand_over(std::move(*sweep), stop);
     }
     ++reads_;
   }
   source_->stop();
+  sweeps_.close();
 }
 
 void Pipeline::take(drivers::LaserScan scan) {
@@ -110,10 +111,11 @@ void Pipeline::take(const SourceTrouble& trouble) {
   health_.count_trouble(trouble);
 }
 
-void Pipeline::hand_over(scan::Sweep sweep) {
+void Pipeline::hand_over(scan::Sweep sweep, const std::stop_token& stop) {
   health_.note_sweep(sweep);
   const std::int64_t begin_utime_us = source_->utime_us(sweep.begin_ns);
   const std::int64_t end_utime_us = source_->utime_us(sweep.end_ns);
+  if (source_->waits_for_detector() && !sweeps_.wait_for_room(stop)) return;
   if (sweeps_.push({std::move(sweep), begin_utime_us, end_utime_us})) return;
   health_.count("unseen-sweeps");
   log::repeated_warning("unseen sweeps", "the detector is slower than the disk; a sweep was left out");
@@ -134,6 +136,7 @@ void Pipeline::detect(std::stop_token stop) {
     }
     pass_began_ = 0;
   }
+  has_ended_ = !stop.stop_requested();
   detection_ended_.release();
 }
 

@@ -17,6 +17,7 @@
 #include "config/settings.hpp"
 #include "ipc/channels.hpp"
 #include "ipc/messages.hpp"
+#include "ipc/recording/recorder.hpp"
 #include "ipc/stairway_json.hpp"
 #include "scan_assembly/sweep_assembler.hpp"
 #include "tools/stairwayd/health_book.hpp"
@@ -40,10 +41,10 @@ struct Pass {
 /// The whole daemon between a source of measurements and the bus, LCM or another: source -> sweeps -> stairways ->
 /// messages.
 ///
-/// One thread reads the source, sends STAIRWAY_SCAN and STAIRWAY_DISK and assembles sweeps; another one finds stairways
-/// and sends STAIRWAY_STAIRWAYS for every sweep, also when there are none. At most one sweep waits for the detector; a
-/// newer one replaces it, which is counted. STAIRWAY_HEALTH and STAIRWAY_SETTINGS go out with report(). What cannot be
-/// sent is counted and lost.
+/// One thread reads the source, sends STAIRWAY_SCAN, STAIRWAY_ANGLES and STAIRWAY_DISK and assembles sweeps; another
+/// one finds stairways and sends STAIRWAY_STAIRWAYS for every sweep, also when there are none. At most one sweep waits
+/// for the detector; a newer one replaces it, which is counted; only a source whose time is its own is kept waiting.
+/// STAIRWAY_HEALTH and STAIRWAY_SETTINGS go out with report(). What cannot be sent is counted and lost.
 class Pipeline {
  public:
   /// Called by the detection thread after the answer has been sent.
@@ -64,6 +65,12 @@ class Pipeline {
   /// Whether the threads got on since the last call: the source was read, and the detector did not take more than a
   /// minute. False means that something hangs; missing devices are no reason.
   bool has_progressed();
+
+  /// Whether the source has ended, and every sweep it gave has its answer.
+  bool has_ended() const { return has_ended_; }
+
+  /// How the recording of the messages is doing, for STAIRWAY_HEALTH.
+  void note_recording(const ipc::RecorderStatus& status) { health_.note(status); }
 
   /// Stops the source (the motor first, then scanning), leaves the pass under way at its next stage, and sends a last
   /// STAIRWAY_HEALTH. Waits at most about 9 s for the disk to stand, and half a second for the detector.
@@ -90,7 +97,7 @@ class Pipeline {
   void take(const SourceSign& sign);
   void take(const SourceNote& note);
   void take(const drivers::ClockQuality& quality);
-  void hand_over(scan::Sweep sweep);
+  void hand_over(scan::Sweep sweep, const std::stop_token& stop);
   void detect(std::stop_token stop);
   Pass answer(Job job, std::stop_token stop);
   bool send(const std::string& channel, std::span<const std::uint8_t> bytes);
@@ -113,6 +120,7 @@ class Pipeline {
   std::atomic<Clock::rep> pass_began_ = 0;  // 0 between passes
   Clock::time_point next_settings_;
   std::binary_semaphore detection_ended_{0};
+  std::atomic<bool> has_ended_ = false;
 
   std::jthread detection_;
   std::jthread acquisition_;

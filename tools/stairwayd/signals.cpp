@@ -10,7 +10,7 @@ namespace stairway::daemon {
 
 Signals::Signals() {
   sigemptyset(&set_);
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1}) sigaddset(&set_, signal);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2}) sigaddset(&set_, signal);
   pthread_sigmask(SIG_BLOCK, &set_, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
 }
@@ -27,6 +27,8 @@ Wakeup Signals::wait_until(std::chrono::steady_clock::time_point deadline) const
       return Wakeup::Reload;
     case SIGUSR1:
       return Wakeup::Called;
+    case SIGUSR2:
+      return Wakeup::Snapshot;
     default:
       return Wakeup::Timeout;
   }

@@ -8,9 +8,10 @@
 namespace stairway::daemon {
 
 enum class Wakeup {
-  Stop,    ///< SIGTERM or SIGINT
-  Reload,  ///< SIGHUP
-  Called,  ///< wake()
+  Stop,      ///< SIGTERM or SIGINT
+  Reload,    ///< SIGHUP
+  Called,    ///< wake()
+  Snapshot,  ///< SIGUSR2
   Timeout,
 };
 

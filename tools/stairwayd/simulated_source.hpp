@@ -31,6 +31,7 @@ class SimulatedSource final : public MeasurementSource {
   std::vector<SourceEvent> read(std::chrono::milliseconds timeout) override;
   void stop() override;
   std::int64_t utime_us(drivers::HostStamp stamp_ns) const override;
+  bool waits_for_detector() const override { return speed_ == 0.0; }
 
   /// For whoever wants to damage it.
   sim::SimulatedRobot& robot() { return robot_; }
