@@ -6,15 +6,18 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ipc/stairway_json.hpp"
 #include "ipc/stairway_text.hpp"
+#include "tools/common/stage_timer.hpp"
 #include "tools/stairway/arguments.hpp"
 #include "tools/stairway/detection_pass.hpp"
 #include "tools/stairway/marked_cloud.hpp"
 #include "tools/stairway/plot.hpp"
+#include "tools/stairway/recording_source.hpp"
 #include "tools/stairway/source.hpp"
 #include "tools/stairway/truth_table.hpp"
 #include "tools/stairway/verbs.hpp"
@@ -28,6 +31,7 @@ struct Arguments {
   std::vector<std::string> sources;
   std::string plot;
   std::string output;
+  std::optional<int> sweep;
 };
 
 void print_answer(const Source& source, std::size_t points, const DetectionPass& pass, Format format) {
@@ -75,6 +79,41 @@ bool detect_in(const std::string& name, const Arguments& arguments, const config
   return write_pictures(arguments, *source, pass);
 }
 
+bool detect_in_recording(const std::string& name, const Arguments& arguments) {
+  auto recording = open_recording(name, arguments.settings);
+  auto sweeps = recording ? open_sweeps(*recording) : tl::unexpected(recording.error());
+  if (!sweeps) {
+    report_error(sweeps.error().text);
+    return false;
+  }
+  StatusLine status;
+  bool is_all_done = true;
+  int passes = 0;
+  while (true) {
+    status.show(fmt::format("{}: reading ...", name));
+    StageTimer timer;
+    auto sweep = sweeps->next();
+    timer.stop();
+    if (!sweep) break;
+    if (arguments.sweep && *arguments.sweep != static_cast<int>(sweep->number)) continue;
+    ++passes;
+    const Source source{.name = name, .cloud = {}, .timings = {{"read", timer.total_ms()}}, .truth = {}};
+    const std::size_t points = sweep->cloud.points.size();
+    const DetectionPass pass = detect_once(std::move(sweep->cloud), recording->settings, [&](std::string_view stage) {
+      status.show(fmt::format("{}: {} ...", name, stage));
+    });
+    status.clear();
+    for (const std::string& flaw : sweep->statistics.flaws())
+      report_error(fmt::format("{}: sweep {}: {}", name, sweep->number, flaw));
+    print_answer(source, points, pass, arguments.format);
+    is_all_done = write_pictures(arguments, source, pass) && is_all_done;
+  }
+  status.clear();
+  report_flaws(name, sweeps->measurements());
+  if (passes == 0) report_error(fmt::format("{}: there is no sweep {} in it", name, arguments.sweep.value_or(0)));
+  return is_all_done && passes > 0;
+}
+
 int run(const Arguments& arguments) {
   const auto loaded = load_settings(arguments.settings);
   if (!loaded) {
@@ -87,7 +126,9 @@ int run(const Arguments& arguments) {
   }
   bool is_all_done = true;
   for (const std::string& source : arguments.sources)
-    is_all_done = detect_in(source, arguments, loaded->settings) && is_all_done;
+    is_all_done = (is_recording(source) ? detect_in_recording(source, arguments)
+                                        : detect_in(source, arguments, loaded->settings)) &&
+                  is_all_done;
   return is_all_done ? kExitDone : kExitFailed;
 }
 
@@ -95,7 +136,7 @@ int run(const Arguments& arguments) {
 
 Action declare_detect(CLI::App& command) {
   const auto arguments = std::make_shared<Arguments>();
-  command.add_option("SOURCE", arguments->sources, "cloud file (.pcd or .ply), or sim:SCENE as in stairway simulate")
+  command.add_option("SOURCE", arguments->sources, "cloud file (.pcd or .ply), recording (.lcm), or sim:SCENE")
       ->required()
       ->type_name("");
   add_settings_options(command, arguments->settings);
@@ -107,9 +148,13 @@ Action declare_detect(CLI::App& command) {
       });
   command.add_option("--output", arguments->output, "write the cloud with its stairways coloured, as .ply or .pcd")
       ->type_name("FILE");
+  command.add_option("--sweep", arguments->sweep, "only this sweep of a recording; the first is 0")->type_name("N");
   command.footer(
+      "Every sweep of a recording is a pass, with the settings that the recording tells; --set changes them, --config\n"
+      "replaces them. Of several sweeps the last one is drawn or written.\n"
       "Examples:\n"
       "  stairway detect sim:straight-flight\n"
+      "  stairway detect --set detector.voxel_mm=20 stairway-000012.lcm\n"
       "  stairway detect --profile depth-camera --set input.level=floor --plot stairs.png scan.pcd\n"
       "  stairway detect --format json *.ply > answers.jsonl\n"
       "Exit codes: 0 done, also when there is no stairway; 1 a SOURCE could not be read or a file not written (the\n"

@@ -15,6 +15,8 @@
 
 #include "detector/levelling.hpp"
 #include "tools/stairway/arguments.hpp"
+#include "tools/stairway/recording_source.hpp"
+#include "tools/stairway/recording_summary.hpp"
 #include "tools/stairway/source.hpp"
 #include "tools/stairway/verbs.hpp"
 
@@ -80,6 +82,16 @@ void print_facts_text(const Source& source, const CloudFacts& facts) {
   }
 }
 
+bool describe_recording(const std::string& name, Format format) {
+  const auto summary = summarise_recording(name);
+  if (!summary) {
+    report_error(summary.error().text);
+    return false;
+  }
+  format == Format::Json ? print_json_line(recording_json(name, *summary)) : print(recording_text(name, *summary));
+  return true;
+}
+
 int run(const Arguments& arguments) {
   const auto loaded = load_settings(arguments.settings);
   if (!loaded) {
@@ -88,6 +100,10 @@ int run(const Arguments& arguments) {
   }
   int exit_code = kExitDone;
   for (const std::string& name : arguments.sources) {
+    if (is_recording(name)) {
+      if (!describe_recording(name, arguments.format)) exit_code = kExitFailed;
+      continue;
+    }
     const auto source = open_source(name, loaded->settings);
     if (!source) {
       report_error(source.error().text);
@@ -104,15 +120,17 @@ int run(const Arguments& arguments) {
 
 Action declare_info(CLI::App& command) {
   const auto arguments = std::make_shared<Arguments>();
-  command.add_option("SOURCE", arguments->sources, "cloud file (.pcd or .ply), or sim:SCENE")
+  command.add_option("SOURCE", arguments->sources, "cloud file (.pcd or .ply), recording (.lcm), or sim:SCENE")
       ->required()
       ->type_name("");
   add_settings_options(command, arguments->settings);
   add_format_option(command, arguments->format);
   command.footer(
       "A floor that is not level, or not at z = 0, asks for --set input.level=floor when detecting.\n"
-      "Example:\n"
+      "Of a recording it tells what is in it, and what is damaged or missing.\n"
+      "Examples:\n"
       "  stairway info scan.pcd\n"
+      "  stairway info --format json stairway-000012.lcm | jq .damage\n"
       "Exit codes: 0 done; 1 a SOURCE could not be read (the others are still done); 2 wrong usage or settings.");
   return [arguments] { return run(*arguments); };
 }

@@ -19,11 +19,11 @@ constexpr double kTolerance_m = 0.04;
 
 }  // namespace
 
-tl::expected<void, ipc::CloudFileError> write_marked_cloud(const std::filesystem::path& path,
-                                                           const scan::PointCloud& cloud,
-                                                           const std::vector<detect::Stairway>& stairways) {
-  std::vector<Colour> colours(cloud.points.size(), kElsewhere);
-  std::vector<std::uint32_t> labels(cloud.points.size(), 0);
+CloudMarks mark_stairways(const scan::PointCloud& cloud, const std::vector<detect::Stairway>& stairways) {
+  CloudMarks marks;
+  auto& [colours, labels] = marks;
+  colours.assign(cloud.points.size(), kElsewhere);
+  labels.assign(cloud.points.size(), 0);
   for (std::size_t s = 0; s < stairways.size(); ++s) {
     if (stairways[s].nosings.empty()) continue;
     const StairChart chart(stairways[s]);
@@ -35,7 +35,14 @@ tl::expected<void, ipc::CloudFileError> write_marked_cloud(const std::filesystem
       labels[i] = static_cast<std::uint32_t>(s + 1);
     }
   }
-  return write_cloud(path, cloud, {.colours = colours, .labels = labels});
+  return marks;
+}
+
+tl::expected<void, ipc::CloudFileError> write_marked_cloud(const std::filesystem::path& path,
+                                                           const scan::PointCloud& cloud,
+                                                           const std::vector<detect::Stairway>& stairways) {
+  const CloudMarks marks = mark_stairways(cloud, stairways);
+  return write_cloud(path, cloud, {.colours = marks.colours, .labels = marks.labels});
 }
 
 tl::expected<void, ipc::CloudFileError> write_cloud(const std::filesystem::path& path, const scan::PointCloud& cloud,

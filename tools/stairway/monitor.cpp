@@ -7,7 +7,6 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 #include "ipc/lcm_bus.hpp"
 #include "tools/stairway/arguments.hpp"
 #include "tools/stairway/daemon_news.hpp"
+#include "tools/stairway/interrupts.hpp"
 #include "tools/stairway/source.hpp"
 #include "tools/stairway/verbs.hpp"
 
@@ -36,19 +36,6 @@ struct Arguments {
   std::optional<double> timeout_s;
   std::string truth;
 };
-
-volatile std::sig_atomic_t is_interrupted = 0;
-
-void on_interrupt(int) { is_interrupted = 1; }
-
-// The second Ctrl-C ends the program the hard way, should the first one not be seen.
-void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = on_interrupt;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 tl::expected<std::unique_ptr<ipc::LcmBus>, ipc::BusError> listen(const ipc::BusOptions& options, DaemonNews& news) {
   auto bus = ipc::LcmBus::open(options.url);
@@ -83,7 +70,7 @@ class Listener {
 
  private:
   bool is_over() const {
-    if (is_interrupted || (arguments_.first && news_.has_stairway())) return true;
+    if (is_interrupted() || (arguments_.first && news_.has_stairway())) return true;
     return arguments_.timeout_s &&
            std::chrono::duration<double>(Clock::now() - start_).count() >= *arguments_.timeout_s;
   }
@@ -140,7 +127,7 @@ int run(const Arguments& arguments) {
   DaemonNews news(ipc::Channels(bus.channel_prefix), arguments.format, std::move(truth));
   Listener(arguments, bus, news).run();
   news.report_damage();
-  if (is_interrupted) return kExitDone;
+  if (is_interrupted()) return kExitDone;
   if (arguments.first ? news.has_stairway() : news.has_answer()) return kExitDone;
   report_error(fmt::format("{} from {}; is stairwayd running, with the same lcm.url and lcm.channel_prefix?",
                            news.has_answer() ? "no stairway" : "nothing", bus.url));

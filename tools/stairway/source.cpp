@@ -47,9 +47,6 @@ tl::expected<Source, SourceError> read(const std::string& name) {
 
 tl::expected<Source, SourceError> open_source(const std::string& name, const config::Settings& settings) {
   if (name.starts_with(kSimulated)) return simulate(name, settings);
-  if (name.ends_with(".lcm")) {
-    return refusal(fmt::format("{}: recordings cannot be read yet; that comes with recording itself", name));
-  }
   return read(name);
 }
 

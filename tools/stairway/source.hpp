@@ -14,7 +14,7 @@
 
 namespace stairway::tools {
 
-/// A SOURCE of the command line, in memory.
+/// A SOURCE of the command line, in memory; of a recording one sweep.
 struct Source {
   std::string name;                                    ///< as the user called it
   scan::PointCloud cloud;                              ///< in the frame of the file; `base` when simulated [m]

@@ -27,11 +27,14 @@ struct Verb {
 };
 
 Action declare_config(CLI::App& command);
+Action declare_convert(CLI::App& command);
 Action declare_detect(CLI::App& command);
 Action declare_doctor(CLI::App& command);
 Action declare_evaluate(CLI::App& command);
 Action declare_info(CLI::App& command);
 Action declare_monitor(CLI::App& command);
+Action declare_record(CLI::App& command);
+Action declare_replay(CLI::App& command);
 Action declare_simulate(CLI::App& command);
 
 /// All verbs in the order of `stairway --help`.
