@@ -37,7 +37,7 @@ std::vector<std::string> recording_to(const std::string& folder, std::vector<std
 
 std::vector<std::string> simulation(std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"--simulate=straight-flight", "--set", "simulate.speed=0", "--set",
-                                     "simulate.disk_period_s=6"};
+                                     "disk.period_s=6"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }

@@ -68,7 +68,7 @@ std::unique_ptr<ReplaySource> open_replay(const std::filesystem::path& path, dou
 config::Settings quick_settings() {
   config::Settings settings;
   settings.simulate.speed = 0.0;
-  settings.simulate.disk_period_s = 6.0;
+  settings.disk.period_s = 6.0;
   settings.detector.voxel_m = 0.0301;
   return settings;
 }

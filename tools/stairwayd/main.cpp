@@ -18,6 +18,8 @@
 #include <vector>
 
 #include "config/load_settings.hpp"
+#include "config/settings_table.hpp"
+#include "ipc/message_codec.hpp"
 #include "ipc/recording/recorder.hpp"
 #include "tools/recording/recorded_measurements.hpp"
 #include "tools/recording/recorded_settings.hpp"
@@ -86,7 +88,13 @@ std::int64_t utime_now_us() {
 std::unique_ptr<ipc::Recorder> make_recorder(const config::Settings& settings) {
   if (settings.record.mode == ipc::RecordMode::Off) return nullptr;
   daemon::log::info(fmt::format("recordings go to {}", settings.record.folder));
-  return std::make_unique<ipc::Recorder>(settings.record, ipc::Channels(settings.lcm.channel_prefix));
+  const ipc::Channels channels(settings.lcm.channel_prefix);
+  auto recorder = std::make_unique<ipc::Recorder>(settings.record, channels);
+  // Measurements begin before the pipeline tells the settings.
+  const std::int64_t now_us = utime_now_us();
+  recorder->add(channels.settings, encode(ipc::SettingsMessage{now_us, STAIRWAY_VERSION, config::to_toml(settings)}),
+                now_us);
+  return recorder;
 }
 
 void take_snapshot(ipc::Recorder* recorder) {
