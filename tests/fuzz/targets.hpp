@@ -26,10 +26,14 @@ std::vector<Seed> can_seeds();
 void run_quadrature(std::span<const std::uint8_t> input);
 std::vector<Seed> quadrature_seeds();
 
+void run_event_log(std::span<const std::uint8_t> input);
+std::vector<Seed> event_log_seeds();
+
 inline constexpr Target kTargets[] = {
     {"scip", run_scip, scip_seeds},
     {"can", run_can, can_seeds},
     {"quadrature", run_quadrature, quadrature_seeds},
+    {"event_log", run_event_log, event_log_seeds},
 };
 
 }  // namespace stairway::fuzz

@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kReadTimeout = 100ms;
-constexpr auto kSettingsInterval = 60s;
+constexpr auto kSettingsInterval = 10s;
 constexpr auto kLongestPass = 60s;
 constexpr auto kDetectorGrace = 500ms;
 constexpr std::size_t kWaitingSweeps = 1;

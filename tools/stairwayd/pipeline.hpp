@@ -59,7 +59,8 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  /// Sends STAIRWAY_HEALTH, and STAIRWAY_SETTINGS once a minute; call it once a second, from one thread.
+  /// Sends STAIRWAY_HEALTH, and every ten seconds STAIRWAY_SETTINGS, for those who begin to record; call it once a
+  /// second, from one thread.
   ipc::HealthMessage report();
 
   /// Whether the threads got on since the last call: the source was read, and the detector did not take more than a
