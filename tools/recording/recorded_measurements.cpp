@@ -103,7 +103,7 @@ void RecordedMeasurements::take(ipc::ScanMessage message) {
 }
 
 void RecordedMeasurements::take(ipc::AnglesMessage message) {
-  if (!message.samples.empty()) offset_us_ = message.utime_us - message.samples.front().stamp_ns / 1000;
+  if (!offset_us_ && !message.samples.empty()) offset_us_ = message.utime_us - message.samples.front().stamp_ns / 1000;
   order_.add(std::move(message));
 }
 

@@ -41,9 +41,8 @@ class RecordedMeasurements {
   /// Empty at the end.
   std::optional<Entry> next();
 
-  /// The instant of a stamp, as the daemon told it with the message that was read last; 0 at the first beam before
-  /// that.
-  std::int64_t utime_us(drivers::HostStamp stamp_ns) const { return offset_us_ + stamp_ns / 1000; }
+  /// The instant of a stamp by the clocks of the newest scan that was read; by those of the first angles before one.
+  std::int64_t utime_us(drivers::HostStamp stamp_ns) const { return offset_us_.value_or(0) + stamp_ns / 1000; }
 
   /// Complete at the end.
   const ipc::LogDamage& damage() const { return reader_.damage(); }
@@ -60,7 +59,7 @@ class RecordedMeasurements {
   bool has_angles_;
   MeasurementOrder order_;
   std::int64_t last_utime_us_ = 0;
-  std::int64_t offset_us_ = 0;
+  std::optional<std::int64_t> offset_us_;
   std::uint64_t undecodable_ = 0;
 };
 

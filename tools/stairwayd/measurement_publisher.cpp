@@ -48,6 +48,11 @@ void MeasurementPublisher::add(std::span<const drivers::AngleSample> samples, co
   send_known(track);
 }
 
+std::int64_t MeasurementPublisher::utime_us(drivers::HostStamp stamp_ns) {
+  if (!offset_us_) read_clocks(stamp_ns);
+  return *offset_us_ + stamp_ns / 1000;
+}
+
 void MeasurementPublisher::send_known(const scan::AngleTrack& track) {
   const auto newest_ns = track.newest_ns();
   while (newest_ns && !waiting_.empty() && last_beam_ns(waiting_.front()) <= *newest_ns) send_oldest(track);
@@ -55,7 +60,7 @@ void MeasurementPublisher::send_known(const scan::AngleTrack& track) {
 
 void MeasurementPublisher::send_angles() {
   if (angles_.samples.empty()) return;
-  angles_.utime_us = utime_us_(angles_.samples.front().stamp_ns);
+  angles_.utime_us = utime_us(angles_.samples.front().stamp_ns);
   publish_(channels_.angles, ipc::encode(angles_));
   angles_.samples.clear();
 }
@@ -85,7 +90,8 @@ void MeasurementPublisher::send_oldest(const scan::AngleTrack& track) {
   ipc::ScanMessage message;
   message.scan = std::move(waiting_.front());
   waiting_.pop_front();
-  message.utime_us = utime_us_(message.scan.first_beam_stamp_ns);
+  read_clocks(message.scan.first_beam_stamp_ns);
+  message.utime_us = utime_us(message.scan.first_beam_stamp_ns);
   const auto start_rad = track.at(message.scan.first_beam_stamp_ns);
   const auto end_rad = track.at(last_beam_ns(message.scan));
   message.disk_angle_valid = start_rad && end_rad;
@@ -102,7 +108,7 @@ void MeasurementPublisher::send(const drivers::AngleSample& sample, const scan::
     index_count_ = std::max(index_count_, 1 + static_cast<std::int64_t>(turns));
   }
   ipc::DiskMessage message;
-  message.utime_us = utime_us_(sample.stamp_ns);
+  message.utime_us = utime_us(sample.stamp_ns);
   message.sample = sample;
   message.speed_rad_s = track.speed_rad_s().value_or(0.0);
   message.index_count = index_count_;

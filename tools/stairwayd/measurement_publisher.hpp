@@ -42,7 +42,12 @@ class MeasurementPublisher {
   /// What a device's state means for the disk goes out with the disk's angle, and at once when it changes.
   void note(const SourceState& state, const scan::AngleTrack& track);
 
+  /// The instant of a stamp by the clocks as they were at the newest scan that was sent, so that whoever has that
+  /// message can tell it as well.
+  std::int64_t utime_us(drivers::HostStamp stamp_ns);
+
  private:
+  void read_clocks(drivers::HostStamp stamp_ns) { offset_us_ = utime_us_(stamp_ns) - stamp_ns / 1000; }
   void send_known(const scan::AngleTrack& track);
   void send_oldest(const scan::AngleTrack& track);
   void send_angles();
@@ -52,6 +57,7 @@ class MeasurementPublisher {
   ipc::Channels channels_;
   Publish publish_;
   Utime utime_us_;
+  std::optional<std::int64_t> offset_us_;
   std::deque<drivers::LaserScan> waiting_;
   ipc::AnglesMessage angles_;  // not sent yet
   std::optional<drivers::HostStamp> last_disk_ns_;

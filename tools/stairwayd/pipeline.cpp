@@ -113,8 +113,8 @@ void Pipeline::take(const SourceTrouble& trouble) {
 
 void Pipeline::hand_over(scan::Sweep sweep, const std::stop_token& stop) {
   health_.note_sweep(sweep);
-  const std::int64_t begin_utime_us = source_->utime_us(sweep.begin_ns);
-  const std::int64_t end_utime_us = source_->utime_us(sweep.end_ns);
+  const std::int64_t begin_utime_us = publisher_.utime_us(sweep.begin_ns);
+  const std::int64_t end_utime_us = publisher_.utime_us(sweep.end_ns);
   if (source_->waits_for_detector() && !sweeps_.wait_for_room(stop)) return;
   if (sweeps_.push({std::move(sweep), begin_utime_us, end_utime_us})) return;
   health_.count("unseen-sweeps");

@@ -33,7 +33,9 @@ std::vector<SourceEvent> ReplaySource::read(std::chrono::milliseconds timeout) {
   std::vector<SourceEvent> events;
   if (!std::exchange(is_begun_, true)) {
     due_ = Clock::now();
-    events.emplace_back(SourceState{true, fmt::format("replaying {}", name_)});
+    events.emplace_back(SourceNote{fmt::format("replaying {}", name_)});
+    for (const Device device : {Device::Scanner, Device::Encoder})
+      events.emplace_back(SourceState{device, Condition::Good, "from the recording", 0});
   }
   // One at a time: utime_us() is that of the message read last.
   if (auto entry = take_due(Clock::now() + timeout))
@@ -61,8 +63,8 @@ std::optional<tools::RecordedMeasurements::Entry> ReplaySource::take_due(Clock::
 
 void ReplaySource::end(std::vector<SourceEvent>& events) {
   if (const std::string flaws = describe_flaws(recording_); !flaws.empty())
-    events.emplace_back(SourceTrouble{"damaged recording", fmt::format("{}: {}", name_, flaws)});
-  events.emplace_back(SourceState{false, fmt::format("{} has ended", name_)});
+    events.emplace_back(SourceTrouble{std::nullopt, "damaged recording", fmt::format("{}: {}", name_, flaws)});
+  events.emplace_back(SourceNote{fmt::format("{} has ended", name_)});
 }
 
 }  // namespace stairway::daemon
