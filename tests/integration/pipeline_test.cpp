@@ -157,6 +157,27 @@ TEST_F(PipelineTest, slow_detector_gets_the_newest_sweep_and_the_others_are_coun
   EXPECT_EQ(drops.at("unseen-sweeps"), 6 - passes);
 }
 
+TEST_F(PipelineTest, progresses_without_measurements_and_without_sweeps) {
+  const auto pipeline = start({});
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(comes_true([&] { return pipeline->has_progressed(); }));
+}
+
+TEST_F(PipelineTest, stuck_detector_is_no_progress_although_scans_arrive) {
+  std::atomic<bool> is_stuck = true;
+  const auto pipeline = start(turning_events(45), [&](const Pass&) {
+    while (is_stuck) std::this_thread::sleep_for(1ms);
+  });
+  ASSERT_TRUE(comes_true([&] { return answers() == 1; }));
+  const auto much_later = [] { return std::chrono::steady_clock::now() + ProgressWatch::kLongestPass; };
+  EXPECT_TRUE(comes_true([&] { return pipeline->has_progressed(); }));
+  for (int i = 0; i < 3; ++i) {
+    std::this_thread::sleep_for(20ms);
+    EXPECT_FALSE(pipeline->has_progressed(much_later()));
+  }
+  is_stuck = false;
+  EXPECT_TRUE(comes_true([&] { return pipeline->has_progressed(much_later()); }));
+}
+
 TEST_F(PipelineTest, stop_ends_the_source_and_tells_it) {
   const auto pipeline = start(turning_events(10));
   EXPECT_FALSE(is_stopped);

@@ -20,7 +20,6 @@ using namespace std::chrono_literals;
 
 constexpr auto kReadTimeout = 100ms;
 constexpr auto kSettingsInterval = 10s;
-constexpr auto kLongestPass = 60s;
 constexpr auto kDetectorGrace = 500ms;
 constexpr std::size_t kWaitingSweeps = 1;
 constexpr double kWholeTurn_rad = 0.99 * 2.0 * std::numbers::pi;
@@ -74,10 +73,11 @@ void Pipeline::acquire(std::stop_token stop) {
       std::visit([this](auto& what) { take(std::move(what)); }, event);
       while (auto sweep = assembler_.take_sweep()) hand_over(std::move(*sweep), stop);
     }
-    ++reads_;
+    progress_.note_read();
   }
   source_->stop();
   sweeps_.close();
+  progress_.note_waiting(true);
 }
 
 void Pipeline::take(drivers::LaserScan scan) {
@@ -115,7 +115,12 @@ void Pipeline::hand_over(scan::Sweep sweep, const std::stop_token& stop) {
   health_.note_sweep(sweep);
   const std::int64_t begin_utime_us = publisher_.utime_us(sweep.begin_ns);
   const std::int64_t end_utime_us = publisher_.utime_us(sweep.end_ns);
-  if (source_->waits_for_detector() && !sweeps_.wait_for_room(stop)) return;
+  if (source_->waits_for_detector()) {
+    progress_.note_waiting(true);
+    const bool has_room = sweeps_.wait_for_room(stop);
+    progress_.note_waiting(false);
+    if (!has_room) return;
+  }
   if (sweeps_.push({std::move(sweep), begin_utime_us, end_utime_us})) return;
   health_.count("unseen-sweeps");
   log::repeated_warning("unseen sweeps", "the detector is slower than the disk; a sweep was left out");
@@ -126,7 +131,7 @@ void Pipeline::detect(std::stop_token stop) {
   // It computes for seconds; the devices and the robot's controller cannot wait.
   let_others_go_first();
   while (auto job = sweeps_.pop(stop)) {
-    pass_began_ = Clock::now().time_since_epoch().count();
+    progress_.begin_pass(Clock::now());
     try {
       Pass pass = answer(std::move(*job), stop);
       pass.is_sent = send(channels_.stairways, ipc::encode(pass.message));
@@ -134,7 +139,7 @@ void Pipeline::detect(std::stop_token stop) {
     } catch (const PassAbandoned&) {
       break;
     }
-    pass_began_ = 0;
+    progress_.end_pass();
   }
   has_ended_ = !stop.stop_requested();
   detection_ended_.release();
@@ -171,14 +176,6 @@ ipc::HealthMessage Pipeline::report() {
   const Clock::time_point now = Clock::now();
   if (now >= next_settings_ && send_settings()) next_settings_ = now + kSettingsInterval;
   return health;
-}
-
-bool Pipeline::has_progressed() {
-  const std::uint64_t reads = reads_;
-  const bool is_reading = std::exchange(reads_seen_, reads) != reads;
-  const Clock::duration began{pass_began_};
-  const bool is_detecting = began == Clock::duration::zero() || Clock::now().time_since_epoch() - began < kLongestPass;
-  return is_reading && is_detecting;
 }
 
 void Pipeline::set_detector_options(const detect::DetectorOptions& options) {

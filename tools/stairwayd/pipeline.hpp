@@ -24,6 +24,7 @@
 #include "tools/stairwayd/measurement_publisher.hpp"
 #include "tools/stairwayd/measurement_source.hpp"
 #include "tools/stairwayd/newest_queue.hpp"
+#include "tools/stairwayd/progress_watch.hpp"
 #include "tools/stairwayd/publish.hpp"
 #include "tools/stairwayd/stairway_tracker.hpp"
 
@@ -63,9 +64,11 @@ class Pipeline {
   /// second, from one thread.
   ipc::HealthMessage report();
 
-  /// Whether the threads got on since the last call: the source was read, and the detector did not take more than a
-  /// minute. False means that something hangs; missing devices are no reason.
-  bool has_progressed();
+  /// Whether the threads got on since the last call: the source was read, or waits for the detector, and the detector
+  /// did not take more than a minute. False means that something hangs; missing devices are no reason.
+  bool has_progressed(ProgressWatch::Clock::time_point now = ProgressWatch::Clock::now()) {
+    return progress_.has_progressed(now);
+  }
 
   /// Whether the source has ended, and every sweep it gave has its answer.
   bool has_ended() const { return has_ended_; }
@@ -116,9 +119,7 @@ class Pipeline {
   NewestQueue<Job> sweeps_;
   StairwayTracker tracker_;
 
-  std::atomic<std::uint64_t> reads_ = 0;
-  std::uint64_t reads_seen_ = 0;
-  std::atomic<Clock::rep> pass_began_ = 0;  // 0 between passes
+  ProgressWatch progress_;
   Clock::time_point next_settings_;
   std::binary_semaphore detection_ended_{0};
   std::atomic<bool> has_ended_ = false;
