@@ -5,10 +5,9 @@
 #include <CLI/Formatter.hpp>
 #include <cstdio>
 #include <exception>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "tools/stairway/command_line.hpp"
 #include "tools/stairway/report.hpp"
 #include "tools/stairway/verbs.hpp"
 
@@ -23,35 +22,16 @@ int with_output_written(int exit_code) {
   return kExitFailed;
 }
 
-std::string failure_text(const CLI::App* app, const CLI::Error& error) {
-  const bool has_verb = !app->get_subcommands().empty();
-  const std::vector<std::string> unknown = app->remaining();
-  std::string what = error.what();
-  if (!has_verb) what = unknown.empty() ? "a verb is required" : "there is no verb '" + unknown.front() + "'";
-  const std::string verb = has_verb ? " " + app->get_subcommands().front()->get_name() : "";
-  return "stairway: " + what + "\nstairway" + verb + " --help tells more\n";
-}
-
 int run(int argc, char** argv) {
-  CLI::App app("Finds stairways in point clouds, simulates the scanner, and shows what stairwayd does.", "stairway");
-  app.set_version_flag("--version", "stairway " STAIRWAY_VERSION);
-  app.failure_message(failure_text);
-  app.require_subcommand(1);
-  app.get_formatter()->column_width(34);
-  app.footer("stairway VERB --help tells more. Try: stairway detect sim:straight-flight");
-  std::vector<std::pair<CLI::App*, Action>> actions;
-  for (const Verb& verb : verbs()) {
-    CLI::App* command = app.add_subcommand(verb.name, verb.summary);
-    Action action = verb.declare(*command);
-    actions.emplace_back(command, std::move(action));
-  }
+  CLI::App app;
+  const std::vector<DeclaredVerb> declared = declare_verbs(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kExitDone : kExitUsage;
   }
-  for (const auto& [command, action] : actions) {
-    if (command->parsed()) return action();
+  for (const DeclaredVerb& verb : declared) {
+    if (verb.command->parsed()) return verb.action();
   }
   return kExitUsage;
 }

@@ -24,6 +24,7 @@
 #include "tools/recording/recorded_measurements.hpp"
 #include "tools/recording/recorded_settings.hpp"
 #include "tools/sim/scene_file.hpp"
+#include "tools/stairwayd/command_line.hpp"
 #include "tools/stairwayd/hardware_source.hpp"
 #include "tools/stairwayd/live_settings.hpp"
 #include "tools/stairwayd/log.hpp"
@@ -38,6 +39,7 @@
 namespace {
 
 using namespace stairway;
+using daemon::CommandLine;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
@@ -46,29 +48,6 @@ constexpr int kFailure = 1;
 constexpr int kWrongUsage = 2;
 constexpr int kBadSettings = 78;  // EX_CONFIG; the unit does not start the daemon again after it
 constexpr auto kReportInterval = 1s;
-
-constexpr const char* kFooter =
-    "Settings: the defaults, then the file, then *.toml in the folder conf.d beside it in their order, then --set.\n"
-    "Without --config the file is /etc/stairwayd/stairwayd.toml if it exists. SIGHUP reads them again.\n\n"
-    "A recording is replayed with its own mount, sweep and detector, or with --config's; --set changes either. The\n"
-    "daemon ends with it. SIGUSR2 writes a snapshot of the last sweeps (record.mode = \"snapshot\").\n\n"
-    "Without --simulate and --replay it runs on the scanner (USB), the disk motor (CAN) and the encoder (GPIO) that "
-    "the\n"
-    "settings name, and waits for those that are missing; stairway doctor says what is wrong with them.\n\n"
-    "Exit codes: 0 ended by SIGTERM, SIGINT, --once or the end of a recording; 1 failure; 2 wrong usage; 78 bad\n"
-    "settings.\n\n"
-    "Examples:\n"
-    "  stairwayd --simulate=straight-flight --set simulate.speed=0 --once\n"
-    "  stairwayd --replay stairway-000012.lcm --set replay.speed=0 --set detector.voxel_mm=20";
-
-struct CommandLine {
-  std::string config;
-  std::vector<std::string> assignments;
-  std::string replay;
-  bool is_simulation = false;
-  bool is_check = false;
-  bool is_once = false;
-};
 
 config::SettingsSources settings_sources(const CommandLine& line) {
   // What this machine is set to does not concern a recording.
@@ -239,34 +218,13 @@ int run(CommandLine line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Finds stairways with a rotating laser scanner and sends their parameters over LCM.", "stairwayd");
-  app.footer(kFooter);
-  app.set_version_flag("--version", std::string("stairwayd ") + STAIRWAY_VERSION);
-  CommandLine line;
-  std::string scene;
-  std::string log_level;
-  app.add_option("--config", line.config, "Settings file")->type_name("FILE");
-  app.add_option("--set", line.assignments, "One setting, e.g. detector.voxel_mm=10; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  CLI::Option* simulate =
-      app.add_option("--simulate", scene, "Run on a simulated robot, in a shipped scene or a scene file")
-          ->type_name("[SCENE]")
-          ->expected(0, 1);
-  app.add_option("--replay", line.replay, "Play a recording instead, as fast as replay.speed says")
-      ->type_name("FILE")
-      ->excludes(simulate);
-  app.add_flag("--check-config", line.is_check, "Say whether the settings are in order, and exit");
-  app.add_flag("--once", line.is_once, "Exit after the first sweep's answer has been sent");
-  app.add_option("--log-level", log_level, "error, warning, info or debug")->type_name("LEVEL");
+  CLI::App app;
+  daemon::CommandLine line;
+  daemon::declare_options(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kSuccess : kWrongUsage;
   }
-  line.is_simulation = simulate->count() > 0;
-  if (!scene.empty()) line.assignments.push_back("simulate.scene=" + scene);
-  if (!log_level.empty()) line.assignments.push_back("log.level=" + log_level);
   return run(std::move(line));
 }
