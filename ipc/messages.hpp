@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "detector/stairway.hpp"
+#include "drivers/scip/clock_mapping.hpp"
 #include "drivers/types.hpp"
 
 /// The contents of the LCM messages in the program's own types. Every `utime_us` is in microseconds since the epoch;
@@ -58,7 +59,9 @@ struct StairwaysMessage {
 struct DeviceHealth {
   std::string name;
   std::string state;
+  std::string reason;  ///< code of what is wrong; empty while it does what it is for
   bool is_ok = false;
+  double rate_hz = 0.0;
   double data_age_s = -1.0;  ///< since its last data [s]; negative: there were none
   std::int64_t troubles = 0;
 
@@ -67,19 +70,47 @@ struct DeviceHealth {
 
 /// The scanner's clock in health_t; all zero before there are scans.
 struct ClockHealth {
-  double period_ms = 0.0;    ///< measured time from scan to scan [ms]
-  double delay_ms = 0.0;     ///< mean lateness of the arrivals [ms]
-  double residual_ms = 0.0;  ///< RMS of the device's stamps about the mapping [ms]
-  double drift_ppm = 0.0;    ///< host seconds per device second, less one [1e-6]
-  std::int64_t resets = 0;   ///< mappings begun anew
+  drivers::ClockSource source = drivers::ClockSource::Passive;
+  double period_ms = 0.0;         ///< measured time from scan to scan [ms]
+  double latency_ms = 0.0;        ///< from the stamped instant to the first byte, as it is assumed [ms]
+  double round_trip_ms = 0.0;     ///< of the question that measured it; 0: it was not [ms]
+  double bound_ms = -1.0;         ///< of the error of all scans' times together; negative: not known [ms]
+  double sync_residual_ms = 0.0;  ///< pulses behind the arrivals' opinion of them; 0 without [ms]
+  double delay_ms = 0.0;          ///< mean lateness of the arrivals [ms]
+  double residual_ms = 0.0;       ///< RMS of the device's stamps about the mapping [ms]
+  double drift_ppm = 0.0;         ///< host seconds per device second, less one [1e-6]
+  std::int64_t resets = 0;        ///< mappings begun anew
 
   bool operator==(const ClockHealth&) const = default;
+};
+
+/// How long a part of the work takes, in health_t.
+struct StageHealth {
+  std::string name;
+  double p50_ms = 0.0;
+  double p95_ms = 0.0;
+
+  bool operator==(const StageHealth&) const = default;
+};
+
+/// The newest results in health_t.
+struct ResultHealth {
+  std::int64_t sweep = -1;    ///< newest that ended; -1: none did
+  double sweep_age_s = -1.0;  ///< negative: none did [s]
+  std::int64_t sweep_points = 0;
+  std::string sweep_flaws;
+  int stairways = -1;                ///< in the newest answer; -1: none yet
+  std::int64_t stairway_sweep = -1;  ///< newest that showed a stairway; -1: none did
+  double stairway_age_s = -1.0;      ///< since the answer about it; negative: there was none [s]
+
+  bool operator==(const ResultHealth&) const = default;
 };
 
 /// health_t
 struct HealthMessage {
   std::int64_t utime_us = 0;
   std::string state;
+  std::vector<std::string> reasons;  ///< codes of what is wrong
   std::int64_t sweep = 0;
   double sweep_progress = 0.0;  ///< 0..1
   double scan_rate_hz = 0.0;
@@ -88,6 +119,8 @@ struct HealthMessage {
   std::vector<std::pair<std::string, std::int64_t>> drops;
   std::vector<DeviceHealth> devices;
   ClockHealth clock;
+  std::vector<StageHealth> stages;
+  ResultHealth result;
 };
 
 /// settings_t

@@ -59,6 +59,7 @@ TEST(DeviceWatch, state_of_a_device_that_failed_is_its_last_trouble) {
   const auto scanner = last_state(events, Device::Scanner);
   EXPECT_EQ(scanner->condition, Condition::Failed);
   EXPECT_EQ(scanner->text, "no scanner found: is it plugged in?");
+  EXPECT_EQ(scanner->reason, "disconnected");
   EXPECT_EQ(last_state(events, Device::Motor)->text, "can0 is down");
   EXPECT_EQ(last_state(events, Device::Encoder)->condition, Condition::Failed);
   EXPECT_FALSE(last_state(events, Device::Encoder)->text.empty());
@@ -95,6 +96,7 @@ TEST(DeviceWatch, devices_sign_once_per_batch) {
     const auto signs = only<SourceSign>(watch.take_events());
     ASSERT_EQ(signs.size(), 1u);
     EXPECT_EQ(signs.front().device, Device::Motor);
+    EXPECT_EQ(signs.front().count, 4u);
   }
 }
 

@@ -6,6 +6,9 @@
 
 #include <numbers>
 
+#include "tools/stairwayd/reason_code.hpp"
+#include "tools/stairwayd/status_text.hpp"
+
 namespace stairway::daemon {
 namespace {
 
@@ -65,21 +68,100 @@ TEST(HealthBook, state_names_the_part_that_is_silent) {
 TEST(HealthBook, every_device_is_told_with_the_age_of_its_data_and_its_troubles) {
   HealthBook book(kStart);
   book.note({Device::Scanner, Condition::Good, "streaming"});
-  book.note({Device::Encoder, Condition::Failed, "no such chip"});
-  book.note_sign(Device::Scanner, kStart + 1s);
+  book.note({Device::Encoder, Condition::Failed, "no such chip", 0, "disconnected"});
+  book.note(SourceSign{Device::Scanner, 80}, kStart + 1s);
   book.count_trouble({Device::Encoder, "encoder: disconnected", "no such chip"});
   book.count_trouble({Device::Encoder, "encoder: disconnected", "no such chip"});
   book.count_trouble({std::nullopt, "measurements dropped", ""});
+  book.note({Device::Motor, Condition::Starting, "searching", 0, "searching"});
   book.note(drivers::ClockQuality{.period_ms = 25.1, .mean_delay_ms = 0.5, .resets = 2});
   const ipc::HealthMessage health = book.report(kStart + 3s, 0);
-  const std::vector<ipc::DeviceHealth> expected{{"scanner", "streaming", true, 2.0, 0},
-                                                {"encoder", "no such chip", false, -1.0, 2}};
+  const std::vector<ipc::DeviceHealth> expected{{"scanner", "streaming", "", true, 80.0 / 3.0, 2.0, 0},
+                                                {"disk motor", "searching", "searching", false, 0.0, -1.0, 0},
+                                                {"encoder", "no such chip", "disconnected", false, 0.0, -1.0, 2}};
   EXPECT_EQ(health.devices, expected);
   EXPECT_EQ(health.clock.period_ms, 25.1);
   EXPECT_EQ(health.clock.resets, 2);
-  const std::vector<std::pair<std::string, std::int64_t>> drops{{"encoder: disconnected", 2},
-                                                                {"measurements dropped", 1}};
+  EXPECT_LT(health.clock.bound_ms, 0.0) << "nobody measured the latency";
+  EXPECT_EQ(health.reasons, std::vector<std::string>{"encoder:disconnected"});
+  const std::vector<std::pair<std::string, std::int64_t>> drops{{"encoder:disconnected", 2},
+                                                                {"measurements-dropped", 1}};
   EXPECT_EQ(health.drops, drops);
+}
+
+TEST(HealthBook, the_bound_of_the_clock_is_half_the_round_trip) {
+  HealthBook book(kStart);
+  book.note(drivers::ClockQuality{.source = drivers::ClockSource::TimeAdjustment, .round_trip_ms = 1.5});
+  EXPECT_DOUBLE_EQ(book.report(kStart, 0).clock.bound_ms, 0.75);
+}
+
+TEST(HealthBook, what_keeps_messages_from_others_is_told_beside_the_measurements) {
+  HealthBook book(kStart);
+  book.note({Device::Scanner, Condition::Failed, "unplugged"});
+  book.note(ipc::RecorderStatus{.trouble = "disk full"});
+  book.note_bus("no route");
+  const ipc::HealthMessage health = book.report(kStart, 0);
+  EXPECT_EQ(health.state, "scanner: unplugged; not recording: disk full; not sending: no route");
+  EXPECT_EQ(health.reasons, (std::vector<std::string>{"scanner:failed", "not-recording", "not-sending"}));
+  book.note_bus("");
+  EXPECT_EQ(book.report(kStart, 0).reasons.size(), 2U);
+}
+
+TEST(HealthBook, results_have_an_age_from_their_first_on) {
+  HealthBook book(kStart);
+  const ipc::ResultHealth none = book.report(kStart, 0).result;
+  EXPECT_EQ(none, ipc::ResultHealth{});
+  scan::Sweep sweep;
+  sweep.number = 4;
+  sweep.cloud.points.resize(3);
+  book.note_sweep(sweep, kStart + 1s);
+  ipc::StairwaysMessage answer;
+  answer.sweep = 4;
+  answer.detection.stairways.resize(2);
+  book.note_answer(answer, {{"total", 8.0}}, kStart + 2s);
+  answer.sweep = 5;
+  answer.detection.stairways.clear();
+  book.note_answer(answer, {{"total", 4.0}}, kStart + 3s);
+  const ipc::HealthMessage health = book.report(kStart + 5s, 0);
+  EXPECT_EQ(health.result.sweep, 4);
+  EXPECT_EQ(health.result.sweep_points, 3);
+  EXPECT_DOUBLE_EQ(health.result.sweep_age_s, 4.0);
+  EXPECT_EQ(health.result.stairways, 0);
+  EXPECT_EQ(health.result.stairway_sweep, 4);
+  EXPECT_DOUBLE_EQ(health.result.stairway_age_s, 3.0);
+  EXPECT_EQ(health.stages, (std::vector<ipc::StageHealth>{{"total", 4.0, 8.0}}));
+}
+
+TEST(StageStatistics, percentiles_are_those_of_the_last_hundred_runs) {
+  StageStatistics stages;
+  for (int i = 0; i < 50; ++i) stages.add("fit", 1e6);
+  for (int i = 100; i > 0; --i) stages.add("fit", i);
+  stages.add("railing", 7.0);
+  EXPECT_EQ(stages.report(), (std::vector<ipc::StageHealth>{{"fit", 50.0, 95.0}, {"railing", 7.0, 7.0}}));
+}
+
+TEST(ReasonCode, is_what_a_program_can_compare) {
+  EXPECT_EQ(reason_code("scanner: corrupt message"), "scanner:corrupt-message");
+  EXPECT_EQ(reason_code("disk motor: CAN bus"), "disk-motor:can-bus");
+  EXPECT_EQ(reason_code("unseen-sweeps"), "unseen-sweeps");
+  EXPECT_EQ(reason_code(""), "");
+}
+
+TEST(StatusText, is_one_line_with_what_matters) {
+  ipc::HealthMessage health;
+  health.state = "scanning\nREADY=1";
+  health.sweep = 3;
+  health.sweep_progress = 0.25;
+  health.devices = {{"scanner", "streaming", "", true, 40.0, 0.02, 1},
+                    {"encoder", "lost", "dead-line", false, 0, 7.2, 0}};
+  health.drops = {{"no-return", 12}, {"unseen-sweeps", 2}};
+  EXPECT_EQ(
+      status_text(health),
+      "scanning READY=1 | sweep 3 25 %, scanner 40/s 1 troubles, encoder 0/s silent 7 s, unseen-sweeps 2, no answer "
+      "yet");
+  health.result.stairways = 0;
+  health.result.stairway_age_s = 40.0;
+  EXPECT_NE(status_text(health).find("0 stairways in the last answer, one 40 s ago"), std::string::npos);
 }
 
 TEST(HealthBook, progress_is_the_share_of_the_turn_in_either_direction) {
@@ -98,8 +180,8 @@ TEST(HealthBook, sweep_ends_add_their_drops) {
   sweep.number = 2;
   sweep.statistics.beams.no_return = 7;
   sweep.statistics.lost_scans = 1;
-  book.note_sweep(sweep);
-  book.note_sweep(sweep);
+  book.note_sweep(sweep, kStart);
+  book.note_sweep(sweep, kStart);
   book.count("unsent-messages");
   const ipc::HealthMessage health = book.report(kStart, 0);
   EXPECT_EQ(health.sweep, 3);

@@ -227,8 +227,8 @@ TEST_F(PipelineTest, troubles_are_counted_by_name_and_what_cannot_be_sent_too) {
   EXPECT_TRUE(comes_true([&] {
     const auto listed = pipeline.report().drops;
     const std::map<std::string, std::int64_t> drops(listed.begin(), listed.end());
-    return drops.contains("unsent-messages") && drops.contains("scanner: corrupt message") &&
-           drops.at("scanner: corrupt message") == 2;
+    return drops.contains("unsent-messages") && drops.contains("scanner:corrupt-message") &&
+           drops.at("scanner:corrupt-message") == 2;
   }));
 }
 

@@ -110,6 +110,15 @@ TEST_F(Stairwayd, tells_what_it_measures_and_how_it_does) {
   EXPECT_GT(health.disk_rate_hz, 0.0);
   EXPECT_GE(health.sweep_progress, 0.0);
   EXPECT_LE(health.sweep_progress, 1.0);
+  EXPECT_TRUE(health.reasons.empty()) << health.reasons.front();
+  ASSERT_EQ(health.devices.size(), 4u);
+  for (const ipc::DeviceHealth& device : health.devices) {
+    EXPECT_TRUE(device.is_ok) << device.name << ": " << device.state;
+    EXPECT_EQ(device.rate_hz > 0.0, device.name != "disk") << device.name;
+  }
+  EXPECT_GT(health.clock.period_ms, 0.0);
+  ASSERT_FALSE(health.stages.empty());
+  EXPECT_EQ(health.stages.front().name, "acquisition");
 
   EXPECT_NE(listener.settings.front().toml.find("\nperiod_s = 6"), std::string::npos);
   EXPECT_FALSE(listener.settings.front().version.empty());
@@ -201,6 +210,7 @@ TEST_F(Stairwayd, tells_systemd_that_it_is_ready_and_alive) {
   }
   EXPECT_TRUE(told.starts_with("READY=1\n")) << told;
   EXPECT_NE(told.find("STATUS="), std::string::npos) << told;
+  EXPECT_NE(told.find("no answer yet"), std::string::npos) << told;
   ::close(socket);
   std::filesystem::remove(path);
 }
@@ -258,6 +268,7 @@ TEST_F(Stairwayd, without_any_device_it_says_what_is_missing_and_goes_on_until_i
   ASSERT_TRUE(listener.listen(kPatience, has_named_all));
   for (const ipc::DeviceHealth& device : listener.healths.back().devices) {
     EXPECT_EQ(device.is_ok, device.name == "disk") << device.name << ": " << device.state;
+    EXPECT_EQ(device.reason.empty(), device.is_ok) << device.name;
     EXPECT_LT(device.data_age_s, 0.0);
   }
   // A thread that takes the signal instead of the one that waits for it would leave the disk turning.

@@ -9,19 +9,7 @@
 namespace stairway::ipc {
 namespace {
 
-const DiskMessage kDisk{1, {2, -3.5, true}, 0.18, 12, DiskFault::Motor, "drive silent for 1.2 s"};
-const AnglesMessage kAngles{-7, 123'456'789, {{1, -0.1, true}, {2, 1.0 / 3.0, false}, {3, 1e300, true}}};
-const HealthMessage kHealth{1,
-                            "scanning",
-                            3,
-                            0.25,
-                            40.0,
-                            1000.0,
-                            123456,
-                            {{"no-return", 77}, {"late", 0}},
-                            {{"scanner", "streaming", true, 0.02, 3}, {"encoder", "no chip", false, -1.0, 7}},
-                            {25.01, 0.7, 0.3, -12.5, 2}};
-const SettingsMessage kSettings{1, "0.1.0", "[lcm]\nurl = \"memq://\"\n"};
+using test::kAngles, test::kDisk, test::kHealth, test::kSettings;
 
 void expect_equal(const detect::Stairway& a, const detect::Stairway& b) {
   EXPECT_EQ(a.kind, b.kind);
@@ -146,7 +134,10 @@ TEST(MessageCodec, disk_health_and_settings_come_back_as_sent) {
   EXPECT_EQ(health->points, kHealth.points);
   EXPECT_EQ(health->drops, kHealth.drops);
   EXPECT_EQ(health->devices, kHealth.devices);
+  EXPECT_EQ(health->reasons, kHealth.reasons);
   EXPECT_EQ(health->clock, kHealth.clock);
+  EXPECT_EQ(health->stages, kHealth.stages);
+  EXPECT_EQ(health->result, kHealth.result);
 
   const auto settings = decode<SettingsMessage>(encode(kSettings));
   ASSERT_TRUE(settings);

@@ -9,6 +9,24 @@
 
 namespace stairway::ipc::test {
 
+inline const DiskMessage kDisk{1, {2, -3.5, true}, 0.18, 12, DiskFault::Motor, "drive silent for 1.2 s"};
+inline const AnglesMessage kAngles{-7, 123'456'789, {{1, -0.1, true}, {2, 1.0 / 3.0, false}, {3, 1e300, true}}};
+inline const HealthMessage kHealth{
+    1,
+    "scanning",
+    {"encoder:disconnected", "not-recording"},
+    3,
+    0.25,
+    40.0,
+    1000.0,
+    123456,
+    {{"no-return", 77}, {"late", 0}},
+    {{"scanner", "streaming", "", true, 40.0, 0.02, 3}, {"encoder", "no chip", "disconnected", false, 0.0, -1.0, 7}},
+    {drivers::ClockSource::TimeAdjustment, 25.01, 23.1, 0.9, 0.45, 0.1, 0.7, 0.3, -12.5, 2},
+    {{"acquisition", 0.3, 1.2}, {"total", 800.0, 950.5}},
+    {2, 0.5, 1513400, "a third of the turn is missing", 1, 2, 0.25}};
+inline const SettingsMessage kSettings{1, "0.1.0", "[lcm]\nurl = \"memq://\"\n"};
+
 inline detect::Stairway sample_stairway() {
   detect::Stairway stairway;
   stairway.kind = detect::StairwayKind::Spiral;

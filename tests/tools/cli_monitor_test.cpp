@@ -132,8 +132,9 @@ TEST(MonitorVerb, waits_for_a_network_without_multicast_route_until_the_time_is_
 
 TEST(HealthText, names_devices_that_are_silent_and_the_quality_of_the_clock) {
   ipc::HealthMessage health;
-  health.devices = {{"scanner", "streaming", true, 0.1, 0}, {"encoder", "no chip", false, 7.2, 3}};
-  health.clock = {25.02, 0.71, 0.3, 1.0, 2};
+  health.devices = {{"scanner", "streaming", "", true, 40.0, 0.1, 0},
+                    {"encoder", "no chip", "disconnected", false, 0.0, 7.2, 3}};
+  health.clock = {.period_ms = 25.02, .delay_ms = 0.71, .resets = 2};
   const std::string text = tools::health_text(health);
   EXPECT_NE(text.find("encoder silent for 7 s"), std::string::npos) << text;
   EXPECT_EQ(text.find("scanner silent"), std::string::npos) << text;

@@ -94,7 +94,8 @@ TEST(DoctorDaemon, is_told_by_its_health) {
   ipc::HealthMessage scanning;
   scanning.state = "scanning";
   ipc::HealthMessage lost;
-  lost.state = "scanner backoff";
+  lost.state = "scanner: no reply";
+  lost.reasons = {"scanner:no-reply"};
   lost.drops = {{"no-return", 5}};
   const auto daemon = [&](const BusFacts& facts, const std::vector<ProcessFacts>& daemons) {
     return judge(facts, daemons).back();
@@ -103,13 +104,28 @@ TEST(DoctorDaemon, is_told_by_its_health) {
   EXPECT_EQ(daemon(facts, running).state, State::Ok);
   facts.health = lost;
   EXPECT_EQ(daemon(facts, running).state, State::Warning);
-  EXPECT_NE(daemon(facts, running).text.find("scanner backoff"), std::string::npos);
+  EXPECT_NE(daemon(facts, running).text.find("scanner: no reply"), std::string::npos);
   EXPECT_NE(daemon(facts, running).text.find("5"), std::string::npos);
   facts.health.reset();
   EXPECT_EQ(daemon(facts, {}).state, State::Skipped);
   EXPECT_EQ(daemon(facts, running).state, State::Failure);
   facts.undecodable = 1;
   EXPECT_NE(daemon(facts, running).remedy.find("same version"), std::string::npos);
+}
+
+TEST(DoctorDaemon, every_device_that_is_unwell_has_a_line_of_its_own) {
+  ipc::HealthMessage health;
+  health.state = "disk motor: can0 is down; encoder: no such chip";
+  health.reasons = {"disk-motor:can-bus", "encoder:disconnected"};
+  health.devices = {{"scanner", "streaming", "", true, 40.0, 0.1, 2},
+                    {"disk motor", "can0 is down", "can-bus", false, 0.0, 12.4, 3},
+                    {"encoder", "no such chip", "disconnected", false, 0.0, -1.0, 1}};
+  const auto checks = judge(BusFacts{.error = "", .is_own_message_heard = true, .health = health}, {});
+  ASSERT_EQ(checks.size(), 4U);
+  EXPECT_EQ(check_named(checks, "daemon").state, State::Warning);
+  EXPECT_EQ(check_named(checks, "daemon-disk-motor").text, "can0 is down (can-bus), last data 12 s ago, 3 troubles");
+  EXPECT_EQ(check_named(checks, "daemon-encoder").text, "no such chip (disconnected), no data yet, 1 troubles");
+  EXPECT_EQ(check_named(checks, "daemon-encoder").state, State::Warning);
 }
 
 struct OpenedPorts {

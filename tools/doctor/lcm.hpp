@@ -49,7 +49,7 @@ struct BusFacts {
 /// Opens the bus, sends one small message to itself on the channel PREFIX + "DOCTOR", and listens for the daemon.
 BusFacts listen_on_bus(const ipc::BusOptions& options, std::chrono::milliseconds patience);
 
-/// lcm-self-test, daemon.
+/// lcm-self-test, daemon, and daemon-DEVICE for every device that the daemon finds unwell.
 std::vector<Check> judge(const BusFacts& facts, const std::vector<ProcessFacts>& daemons);
 
 }  // namespace stairway::doctor

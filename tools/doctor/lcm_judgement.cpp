@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "tools/doctor/lcm.hpp"
 
@@ -63,22 +64,34 @@ std::string dropped(const ipc::HealthMessage& health) {
   return text;
 }
 
-Check judge_daemon(const BusFacts& facts, const std::vector<ProcessFacts>& daemons) {
-  constexpr const char* kName = "daemon";
-  if (facts.undecodable > 0 && !facts.health) {
-    return failure(kName, "its health cannot be read", "have the same version of stairway and stairwayd installed");
-  }
-  if (!facts.health) {
-    if (daemons.empty()) return skipped(kName, "no stairwayd is running");
-    if (!facts.error.empty()) return skipped(kName, to_string(daemons.front()) + " runs, LCM does not");
-    return failure(kName, to_string(daemons.front()) + " tells no health",
-                   "is its lcm.url the one used here? journalctl -u stairwayd says more");
-  }
-  const ipc::HealthMessage& health = *facts.health;
+/// "daemon", then one check for every device that does not do what it is for.
+std::vector<Check> judge_health(const ipc::HealthMessage& health) {
+  constexpr const char* kRemedy = "journalctl -u stairwayd says since when and why; stairway monitor shows it live";
   const std::string text = fmt::format("{}, {:.1f} scans/s, {:.0f} disk angles/s{}", health.state, health.scan_rate_hz,
                                        health.disk_rate_hz, dropped(health));
-  if (health.state == "scanning") return ok(kName, text);
-  return warning(kName, text, "journalctl -u stairwayd says since when and why");
+  std::vector<Check> checks{health.reasons.empty() ? ok("daemon", text) : warning("daemon", text, kRemedy)};
+  for (const ipc::DeviceHealth& device : health.devices) {
+    if (device.is_ok) continue;
+    std::string name = "daemon-" + device.name;
+    std::ranges::replace(name, ' ', '-');
+    const std::string age =
+        device.data_age_s < 0.0 ? "no data yet" : fmt::format("last data {:.0f} s ago", device.data_age_s);
+    checks.push_back(warning(std::move(name),
+                             fmt::format("{} ({}), {}, {} troubles", device.state, device.reason, age, device.troubles),
+                             kRemedy));
+  }
+  return checks;
+}
+
+Check judge_silence(const BusFacts& facts, const std::vector<ProcessFacts>& daemons) {
+  constexpr const char* kName = "daemon";
+  if (facts.undecodable > 0) {
+    return failure(kName, "its health cannot be read", "have the same version of stairway and stairwayd installed");
+  }
+  if (daemons.empty()) return skipped(kName, "no stairwayd is running");
+  if (!facts.error.empty()) return skipped(kName, to_string(daemons.front()) + " runs, LCM does not");
+  return failure(kName, to_string(daemons.front()) + " tells no health",
+                 "is its lcm.url the one used here? journalctl -u stairwayd says more");
 }
 
 }  // namespace
@@ -94,7 +107,9 @@ std::vector<Check> judge(const LcmFacts& facts) {
 }
 
 std::vector<Check> judge(const BusFacts& facts, const std::vector<ProcessFacts>& daemons) {
-  return {judge_self_test(facts), judge_daemon(facts, daemons)};
+  std::vector<Check> checks = facts.health ? judge_health(*facts.health) : std::vector{judge_silence(facts, daemons)};
+  checks.insert(checks.begin(), judge_self_test(facts));
+  return checks;
 }
 
 }  // namespace stairway::doctor

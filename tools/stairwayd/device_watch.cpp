@@ -54,17 +54,17 @@ const char* to_string(Device device) {
 
 DeviceWatch::DeviceWatch(const config::Settings& settings)
     : disk_(settings.disk), supervisor_(settings.disk, units(settings)) {
-  line(Device::Disk) = {Condition::Good, to_string(drivers::DiskState::Resting), {}, 0};
+  line(Device::Disk) = {Condition::Good, to_string(drivers::DiskState::Resting), {}, {}, 0};
   for (const Device device : kDevices) {
     if (device == Device::Encoder && disk_.angle_source == drivers::AngleSource::Drive) continue;
-    events_.emplace_back(SourceState{device, line(device).condition, line(device).text, 0});
+    events_.emplace_back(SourceState{device, line(device).condition, line(device).text, 0, {}});
   }
 }
 
 void DeviceWatch::take(drivers::ScipEvent event, HostStamp now_ns) {
   std::visit(Overloaded{
                  [&](drivers::LaserScan& scan) {
-                   sign(Device::Scanner);
+                   sign(Device::Scanner, 1);
                    events_.emplace_back(std::move(scan));
                  },
                  [&](const drivers::ScipDeviceInfo& device) {
@@ -88,7 +88,7 @@ void DeviceWatch::take(drivers::ScipEvent event, HostStamp now_ns) {
 void DeviceWatch::take(drivers::MotorEvent event, HostStamp now_ns) {
   std::visit(Overloaded{
                  [&](const drivers::DriveFeedback& feedback) {
-                   sign(Device::Motor);
+                   sign(Device::Motor, 1);
                    supervisor_.on_feedback(feedback);
                    if (disk_.angle_source == drivers::AngleSource::Drive)
                      add_angles({{feedback.stamp_ns, feedback.angle_rad - disk_.drive_zero_rad, is_drive_running_}});
@@ -115,7 +115,7 @@ void DeviceWatch::take(drivers::MotorEvent event, HostStamp now_ns) {
 void DeviceWatch::take(drivers::EncoderEvent event, HostStamp now_ns) {
   std::visit(Overloaded{
                  [&](std::vector<drivers::AngleSample>& samples) {
-                   sign(Device::Encoder);
+                   sign(Device::Encoder, samples.size());
                    supervisor_.on_angles(samples);
                    add_angles(std::move(samples));
                  },
@@ -138,9 +138,12 @@ void DeviceWatch::pass_time(HostStamp now_ns) {
                    },
                    [&](drivers::DiskStateEvent& change) {
                      const bool is_checking = change.state == drivers::DiskState::Checking;
-                     if (change.problem) return tell(Device::Disk, Condition::Failed, change.problem->detail, now_ns);
+                     if (change.problem) {
+                       return tell(Device::Disk, Condition::Failed, change.problem->detail,
+                                   to_string(change.problem->trouble), now_ns);
+                     }
                      tell(Device::Disk, is_checking ? Condition::Starting : Condition::Good, to_string(change.state),
-                          now_ns);
+                          is_checking ? to_string(change.state) : "", now_ns);
                    },
                },
                event);
@@ -148,7 +151,10 @@ void DeviceWatch::pass_time(HostStamp now_ns) {
 }
 
 std::vector<SourceEvent> DeviceWatch::take_events() {
-  has_signed_.fill(false);
+  for (const Device device : kDevices) {
+    const std::size_t count = std::exchange(signs_[static_cast<std::size_t>(device)], 0);
+    if (count > 0) events_.emplace_back(SourceSign{device, count});
+  }
   return std::exchange(events_, {});
 }
 
@@ -156,26 +162,27 @@ void DeviceWatch::set(Device device, bool is_good, std::string text, HostStamp n
   Line& entry = line(device);
   if (is_good || (entry.condition == Condition::Good && now_ns - entry.trouble_ns > kCauseAge_ns))
     entry.trouble.clear();
-  if (is_good) return tell(device, Condition::Good, std::move(text), now_ns);
-  if (entry.trouble.empty()) return tell(device, Condition::Starting, std::move(text), now_ns);
-  tell(device, Condition::Failed, entry.trouble, now_ns);
+  if (is_good) return tell(device, Condition::Good, std::move(text), {}, now_ns);
+  if (entry.trouble.empty()) return tell(device, Condition::Starting, text, text, now_ns);
+  tell(device, Condition::Failed, entry.trouble, entry.reason, now_ns);
 }
 
-void DeviceWatch::tell(Device device, Condition condition, std::string text, HostStamp now_ns) {
+void DeviceWatch::tell(Device device, Condition condition, std::string text, std::string reason, HostStamp now_ns) {
   Line& entry = line(device);
   if (entry.condition == condition && entry.text == text) return;
   entry.condition = condition;
   entry.text = text;
-  events_.emplace_back(SourceState{device, condition, std::move(text), now_ns});
+  events_.emplace_back(SourceState{device, condition, std::move(text), now_ns, std::move(reason)});
 }
 
 void DeviceWatch::report(Device device, const char* trouble, std::string detail, HostStamp now_ns) {
   Line& entry = line(device);
   entry.trouble = detail.empty() ? trouble : detail;
+  entry.reason = trouble;
   entry.trouble_ns = now_ns;
   events_.emplace_back(SourceTrouble{device, fmt::format("{}: {}", to_string(device), trouble), std::move(detail)});
   if (device != Device::Disk && entry.condition != Condition::Good)
-    tell(device, Condition::Failed, entry.trouble, now_ns);
+    tell(device, Condition::Failed, entry.trouble, entry.reason, now_ns);
 }
 
 void DeviceWatch::add_angles(std::vector<drivers::AngleSample> samples) {
@@ -185,12 +192,6 @@ void DeviceWatch::add_angles(std::vector<drivers::AngleSample> samples) {
   } else {
     last->insert(last->end(), samples.begin(), samples.end());
   }
-}
-
-// Once per batch is enough.
-void DeviceWatch::sign(Device device) {
-  if (std::exchange(has_signed_[static_cast<std::size_t>(device)], true)) return;
-  events_.emplace_back(SourceSign{device});
 }
 
 }  // namespace stairway::daemon

@@ -45,21 +45,22 @@ class DeviceWatch {
     Condition condition = Condition::Starting;
     std::string text = "starting";
     std::string trouble;  // the last one's detail
+    std::string reason;   // and its name
     drivers::HostStamp trouble_ns = 0;
   };
 
   void set(Device device, bool is_good, std::string text, drivers::HostStamp now_ns);
-  void tell(Device device, Condition condition, std::string text, drivers::HostStamp now_ns);
+  void tell(Device device, Condition condition, std::string text, std::string reason, drivers::HostStamp now_ns);
   void report(Device device, const char* trouble, std::string detail, drivers::HostStamp now_ns);
   void add_angles(std::vector<drivers::AngleSample> samples);
-  void sign(Device device);
+  void sign(Device device, std::size_t count) { signs_[static_cast<std::size_t>(device)] += count; }
   Line& line(Device device) { return lines_[static_cast<std::size_t>(device)]; }
 
   drivers::DiskOptions disk_;
   drivers::DiskSupervisor supervisor_;
   bool is_drive_running_ = false;
   std::array<Line, kDevices.size()> lines_;
-  std::array<bool, kDevices.size()> has_signed_{};
+  std::array<std::size_t, kDevices.size()> signs_{};  // data since the events were taken
   std::vector<SourceEvent> events_;
 };
 

@@ -2,9 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/stairwayd/health_book.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "tools/stairwayd/reason_code.hpp"
 
 namespace stairway::daemon {
 namespace {
@@ -16,6 +22,25 @@ double turn_progress(double angle_rad, double speed_rad_s) {
   return speed_rad_s < 0.0 && share > 0.0 ? 1.0 - share : share;
 }
 
+double seconds_between(HealthBook::Clock::time_point from, HealthBook::Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+double age_s(const std::optional<HealthBook::Clock::time_point>& since, HealthBook::Clock::time_point now) {
+  return since ? seconds_between(*since, now) : -1.0;
+}
+
+std::string reason_of(const SourceState& state) {
+  if (state.condition == Condition::Good) return {};
+  if (!state.reason.empty()) return reason_code(state.reason);
+  return state.condition == Condition::Failed ? "failed" : "starting";
+}
+
+// The scanner dates its answer within the round trip, and the answer is taken to be half of it old.
+double bound_ms(const drivers::ClockQuality& quality) {
+  return quality.round_trip_ms > 0.0 ? 0.5 * quality.round_trip_ms : -1.0;
+}
+
 }  // namespace
 
 void HealthBook::note(const SourceState& state) {
@@ -23,6 +48,7 @@ void HealthBook::note(const SourceState& state) {
   DeviceEntry& entry = devices_[state.device];
   entry.condition = state.condition;
   entry.text = state.text;
+  entry.reason = reason_of(state);
 }
 
 void HealthBook::note(const drivers::ClockQuality& quality) {
@@ -30,9 +56,11 @@ void HealthBook::note(const drivers::ClockQuality& quality) {
   clock_ = quality;
 }
 
-void HealthBook::note_sign(Device device, Clock::time_point now) {
+void HealthBook::note(const SourceSign& sign, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
-  devices_[device].last_sign = now;
+  DeviceEntry& entry = devices_[sign.device];
+  entry.last_sign = now;
+  entry.signs += sign.count;
 }
 
 void HealthBook::note_stop() {
@@ -62,7 +90,7 @@ void HealthBook::note_angles(std::size_t samples, const scan::AngleTrack& track)
   if (angle_rad) progress_ = turn_progress(*angle_rad, *speed_rad_s);
 }
 
-void HealthBook::note_sweep(const scan::Sweep& sweep) {
+void HealthBook::note_sweep(const scan::Sweep& sweep, Clock::time_point now) {
   const scan::BeamCounts& beams = sweep.statistics.beams;
   count("lost-scans", sweep.statistics.lost_scans);
   count("hurried-scans", sweep.statistics.hurried_scans);
@@ -76,6 +104,29 @@ void HealthBook::note_sweep(const scan::Sweep& sweep) {
   const std::lock_guard lock(mutex_);
   sweep_ = static_cast<std::int64_t>(sweep.number) + 1;
   points_ = 0;
+  result_.sweep = static_cast<std::int64_t>(sweep.number);
+  result_.sweep_points = static_cast<std::int64_t>(sweep.cloud.points.size());
+  result_.sweep_flaws = fmt::format("{}", fmt::join(sweep.statistics.flaws(), "; "));
+  last_sweep_ = now;
+}
+
+void HealthBook::note_answer(const ipc::StairwaysMessage& answer, const ipc::Timings& timings, Clock::time_point now) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [stage, duration_ms] : timings) stages_.add(stage, duration_ms);
+  result_.stairways = static_cast<int>(answer.detection.stairways.size());
+  if (result_.stairways == 0) return;
+  result_.stairway_sweep = answer.sweep;
+  last_stairway_ = now;
+}
+
+void HealthBook::note_stage(std::string_view stage, Clock::duration duration) {
+  const std::lock_guard lock(mutex_);
+  stages_.add(stage, std::chrono::duration<double, std::milli>(duration).count());
+}
+
+void HealthBook::note_bus(std::string trouble) {
+  const std::lock_guard lock(mutex_);
+  bus_trouble_ = std::move(trouble);
 }
 
 void HealthBook::count(const std::string& name, std::uint64_t number) {
@@ -85,7 +136,7 @@ void HealthBook::count(const std::string& name, std::uint64_t number) {
 }
 
 void HealthBook::count_trouble(const SourceTrouble& trouble) {
-  count(trouble.name);
+  count(reason_code(trouble.name));
   if (!trouble.device) return;
   const std::lock_guard lock(mutex_);
   ++devices_[*trouble.device].troubles;
@@ -95,55 +146,78 @@ ipc::HealthMessage HealthBook::report(Clock::time_point now, std::int64_t utime_
   const std::lock_guard lock(mutex_);
   ipc::HealthMessage health;
   health.utime_us = utime_us;
-  health.state = state_text();
+  for (const Finding& finding : findings()) {
+    health.state.append(health.state.empty() ? "" : "; ").append(finding.text);
+    if (!finding.reason.empty()) health.reasons.push_back(finding.reason);
+  }
   health.sweep = sweep_;
   health.sweep_progress = progress_;
   health.points = points_;
-  const double elapsed_s = std::chrono::duration<double>(now - last_report_).count();
+  const double elapsed_s = seconds_between(last_report_, now);
   if (elapsed_s > 0.0) {
     health.scan_rate_hz = static_cast<double>(scans_) / elapsed_s;
     health.disk_rate_hz = static_cast<double>(angles_) / elapsed_s;
   }
   health.drops.assign(counts_.begin(), counts_.end());
-  for (const auto& [device, entry] : devices_) health.devices.push_back(device_health(device, entry, now));
+  for (const auto& [device, entry] : devices_) health.devices.push_back(device_health(device, entry, now, elapsed_s));
   if (clock_)
-    health.clock = {clock_->period_ms, clock_->mean_delay_ms, clock_->stamp_residual_ms, clock_->drift_ppm,
-                    static_cast<std::int64_t>(clock_->resets)};
+    health.clock = {clock_->source,        clock_->period_ms,
+                    clock_->latency_ms,    clock_->round_trip_ms,
+                    bound_ms(*clock_),     clock_->sync_residual_ms,
+                    clock_->mean_delay_ms, clock_->stamp_residual_ms,
+                    clock_->drift_ppm,     static_cast<std::int64_t>(clock_->resets)};
+  health.stages = stages_.report();
+  health.result = result_health(now);
   last_report_ = now;
   scans_ = 0;
   angles_ = 0;
+  for (auto& [device, entry] : devices_) entry.signs = 0;
   return health;
 }
 
-std::string HealthBook::state_text() const {
-  return measurement_text() + (recording_trouble_.empty() ? "" : "; not recording: " + recording_trouble_);
+std::vector<HealthBook::Finding> HealthBook::findings() const {
+  std::vector<Finding> found = measurement_findings();
+  if (!recording_trouble_.empty()) found.push_back({"not recording: " + recording_trouble_, "not-recording"});
+  if (!bus_trouble_.empty()) found.push_back({"not sending: " + bus_trouble_, "not-sending"});
+  return found;
 }
 
-std::string HealthBook::measurement_text() const {
-  if (is_stopped_) return "stopped";
-  if (devices_.empty()) return "starting";
-  if (std::string text = failures(); !text.empty()) return text;
-  if (scans_ == 0) return "no scans arrive";
-  if (angles_ == 0) return "no disk angles arrive";
-  return is_angle_valid_ ? "scanning" : "waiting for the disk's index";
+std::vector<HealthBook::Finding> HealthBook::measurement_findings() const {
+  if (is_stopped_) return {{"stopped", "stopped"}};
+  if (devices_.empty()) return {{"starting", "starting"}};
+  if (auto found = device_findings(); !found.empty()) return found;
+  if (scans_ == 0) return {{"no scans arrive", "no-scans"}};
+  if (angles_ == 0) return {{"no disk angles arrive", "no-angles"}};
+  if (!is_angle_valid_) return {{"waiting for the disk's index", "no-index"}};
+  return {{"scanning", {}}};
 }
 
 // Every device that has failed, else every one that is not ready yet.
-std::string HealthBook::failures() const {
-  std::string text;
+std::vector<HealthBook::Finding> HealthBook::device_findings() const {
+  std::vector<Finding> found;
   for (const Condition condition : {Condition::Failed, Condition::Starting}) {
     for (const auto& [device, entry] : devices_) {
       if (entry.condition != condition) continue;
-      text.append(text.empty() ? "" : "; ").append(to_string(device)).append(": ").append(entry.text);
+      found.push_back({fmt::format("{}: {}", to_string(device), entry.text),
+                       reason_code(fmt::format("{}: {}", to_string(device), entry.reason))});
     }
-    if (!text.empty()) break;
+    if (!found.empty()) break;
   }
-  return text;
+  return found;
 }
 
-ipc::DeviceHealth HealthBook::device_health(Device device, const DeviceEntry& entry, Clock::time_point now) const {
-  const double age_s = entry.last_sign ? std::chrono::duration<double>(now - *entry.last_sign).count() : -1.0;
-  return {to_string(device), entry.text, entry.condition == Condition::Good, age_s, entry.troubles};
+ipc::DeviceHealth HealthBook::device_health(Device device, const DeviceEntry& entry, Clock::time_point now,
+                                            double elapsed_s) const {
+  const double rate_hz = elapsed_s > 0.0 ? static_cast<double>(entry.signs) / elapsed_s : 0.0;
+  return {to_string(device),           entry.text,    entry.reason, entry.condition == Condition::Good, rate_hz,
+          age_s(entry.last_sign, now), entry.troubles};
+}
+
+ipc::ResultHealth HealthBook::result_health(Clock::time_point now) const {
+  ipc::ResultHealth result = result_;
+  result.sweep_age_s = age_s(last_sweep_, now);
+  result.stairway_age_s = age_s(last_stairway_, now);
+  return result;
 }
 
 }  // namespace stairway::daemon

@@ -9,12 +9,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ipc/messages.hpp"
 #include "ipc/recording/recorder.hpp"
+#include "ipc/stairway_json.hpp"
 #include "scan_assembly/angle_track.hpp"
 #include "scan_assembly/sweep_assembler.hpp"
 #include "tools/stairwayd/measurement_source.hpp"
+#include "tools/stairwayd/stage_statistics.hpp"
 
 namespace stairway::daemon {
 
@@ -28,12 +31,18 @@ class HealthBook {
   void note(const SourceState& state);
   void note(const drivers::ClockQuality& quality);
   /// A device gave data.
-  void note_sign(Device device, Clock::time_point now);
+  void note(const SourceSign& sign, Clock::time_point now);
   void note_stop();
   void note(const ipc::RecorderStatus& recording);
   void note_scan(const drivers::LaserScan& scan);
   void note_angles(std::size_t samples, const scan::AngleTrack& track);
-  void note_sweep(const scan::Sweep& sweep);
+  void note_sweep(const scan::Sweep& sweep, Clock::time_point now);
+  /// The detector's answer, and how long its stages took.
+  void note_answer(const ipc::StairwaysMessage& answer, const ipc::Timings& timings, Clock::time_point now);
+  /// A part of the work was done once.
+  void note_stage(std::string_view stage, Clock::duration duration);
+  /// Why messages cannot be sent; empty when they can.
+  void note_bus(std::string trouble);
   /// Something was dropped or went wrong.
   void count(const std::string& name, std::uint64_t number = 1);
   /// Something went wrong with a device; its name begins with the device's.
@@ -46,14 +55,23 @@ class HealthBook {
   struct DeviceEntry {
     Condition condition = Condition::Starting;
     std::string text;
+    std::string reason;
     std::optional<Clock::time_point> last_sign;
+    std::size_t signs = 0;  // since the last report
     std::int64_t troubles = 0;
   };
 
-  std::string state_text() const;
-  std::string measurement_text() const;
-  std::string failures() const;
-  ipc::DeviceHealth device_health(Device device, const DeviceEntry& entry, Clock::time_point now) const;
+  /// What is wrong, for a person and for a program.
+  struct Finding {
+    std::string text;
+    std::string reason;
+  };
+  std::vector<Finding> findings() const;
+  std::vector<Finding> measurement_findings() const;
+  std::vector<Finding> device_findings() const;
+  ipc::DeviceHealth device_health(Device device, const DeviceEntry& entry, Clock::time_point now,
+                                  double elapsed_s) const;
+  ipc::ResultHealth result_health(Clock::time_point now) const;
 
   std::mutex mutex_;
   Clock::time_point last_report_;
@@ -61,6 +79,11 @@ class HealthBook {
   std::optional<drivers::ClockQuality> clock_;
   bool is_stopped_ = false;
   std::string recording_trouble_;
+  std::string bus_trouble_;
+  StageStatistics stages_;
+  ipc::ResultHealth result_;  // without ages
+  std::optional<Clock::time_point> last_sweep_;
+  std::optional<Clock::time_point> last_stairway_;
   std::uint64_t scans_ = 0;   // since the last report, like
   std::uint64_t angles_ = 0;  // these
   std::int64_t sweep_ = 0;

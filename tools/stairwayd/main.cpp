@@ -35,6 +35,7 @@
 #include "tools/stairwayd/service_notifier.hpp"
 #include "tools/stairwayd/signals.hpp"
 #include "tools/stairwayd/simulated_source.hpp"
+#include "tools/stairwayd/status_text.hpp"
 
 namespace {
 
@@ -140,8 +141,9 @@ int run(const CommandLine& line, const config::Settings& settings, const daemon:
       case daemon::Wakeup::Timeout:
         is_running = !pipeline.has_ended();
         note_recording(recorder.get(), pipeline);
+        pipeline.note_bus(bus.trouble());
         next_report = std::max(next_report + kReportInterval, Clock::now());
-        notifier.send("STATUS=" + pipeline.report().state);
+        notifier.send("STATUS=" + daemon::status_text(pipeline.report()));
         if (pipeline.has_progressed()) notifier.send("WATCHDOG=1");
         break;
     }

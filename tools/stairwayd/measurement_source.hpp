@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -37,6 +38,7 @@ struct SourceState {
   Condition condition = Condition::Starting;
   std::string text;                 ///< one line for a person, e.g. "streaming"; without the device's name
   drivers::HostStamp stamp_ns = 0;  ///< since when
+  std::string reason;               ///< unless good: what is wrong or awaited in a few words, one of a few texts
 };
 
 /// Something went wrong; counted by name, and for the device if it is one's.
@@ -49,6 +51,7 @@ struct SourceTrouble {
 /// A device gave data.
 struct SourceSign {
   Device device = Device::Scanner;
+  std::size_t count = 1;  ///< scans, replies of the drive, or angles
 };
 
 /// One line for a person, e.g. which device was found.

@@ -26,8 +26,14 @@ bool PatientPublisher::publish(const std::string& channel, std::span<const std::
   if (!bus_ && !is_closed_ && Clock::now() >= next_attempt_) try_to_open();
   if (!bus_) return false;
   const auto sent = bus_->publish(channel, bytes);
+  trouble_ = sent ? "" : sent.error().text;
   if (!sent) log::repeated_warning("publish", sent.error().text);
   return sent.has_value();
+}
+
+std::string PatientPublisher::trouble() const {
+  const std::lock_guard lock(mutex_);
+  return trouble_;
 }
 
 void PatientPublisher::close() {
@@ -40,9 +46,11 @@ void PatientPublisher::try_to_open() {
   auto bus = ipc::LcmBus::open(url_);
   if (bus) {
     bus_ = std::move(*bus);
+    trouble_.clear();
     log::info(fmt::format("sending to {}", url_));
     return;
   }
+  trouble_ = bus.error().text;
   log::repeated_warning("open bus", fmt::format("{}; trying again", bus.error().text));
   next_attempt_ = Clock::now() + pause_;
   pause_ = std::min<Clock::duration>(2 * pause_, kLongestPause);

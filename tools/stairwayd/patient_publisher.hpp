@@ -22,6 +22,8 @@ class PatientPublisher {
 
   /// False when the message could not be sent.
   bool publish(const std::string& channel, std::span<const std::uint8_t> bytes);
+  /// Why the last message could not be sent; empty when it was.
+  std::string trouble() const;
   /// Writes out what is buffered; what is published afterwards is lost.
   void close();
 
@@ -30,8 +32,9 @@ class PatientPublisher {
 
   using Clock = std::chrono::steady_clock;
   const std::string url_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::unique_ptr<ipc::LcmBus> bus_;
+  std::string trouble_;
   bool is_closed_ = false;
   Clock::time_point next_attempt_{};
   Clock::duration pause_;

@@ -69,10 +69,14 @@ bool Pipeline::stop() {
 void Pipeline::acquire(std::stop_token stop) {
   name_this_thread("acquisition");
   while (!stop.stop_requested() && !source_->has_ended()) {
+    Clock::duration spent{0};
     for (SourceEvent& event : source_->read(kReadTimeout)) {
+      const Clock::time_point began = Clock::now();
       std::visit([this](auto& what) { take(std::move(what)); }, event);
+      spent += Clock::now() - began;
       while (auto sweep = assembler_.take_sweep()) hand_over(std::move(*sweep), stop);
     }
+    if (spent > Clock::duration::zero()) health_.note_stage("acquisition", spent);
     progress_.note_read();
   }
   source_->stop();
@@ -100,7 +104,7 @@ void Pipeline::take(const SourceState& state) {
   publisher_.note(state, assembler_.angle_track());
 }
 
-void Pipeline::take(const SourceSign& sign) { health_.note_sign(sign.device, Clock::now()); }
+void Pipeline::take(const SourceSign& sign) { health_.note(sign, Clock::now()); }
 
 void Pipeline::take(const SourceNote& note) { log::info(note.text); }
 
@@ -112,7 +116,7 @@ void Pipeline::take(const SourceTrouble& trouble) {
 }
 
 void Pipeline::hand_over(scan::Sweep sweep, const std::stop_token& stop) {
-  health_.note_sweep(sweep);
+  health_.note_sweep(sweep, Clock::now());
   const std::int64_t begin_utime_us = publisher_.utime_us(sweep.begin_ns);
   const std::int64_t end_utime_us = publisher_.utime_us(sweep.end_ns);
   if (source_->waits_for_detector()) {
@@ -121,7 +125,7 @@ void Pipeline::hand_over(scan::Sweep sweep, const std::stop_token& stop) {
     progress_.note_waiting(false);
     if (!has_room) return;
   }
-  if (sweeps_.push({std::move(sweep), begin_utime_us, end_utime_us})) return;
+  if (sweeps_.push({std::move(sweep), begin_utime_us, end_utime_us, Clock::now()})) return;
   health_.count("unseen-sweeps");
   log::repeated_warning("unseen sweeps", "the detector is slower than the disk; a sweep was left out");
 }
@@ -131,9 +135,11 @@ void Pipeline::detect(std::stop_token stop) {
   // It computes for seconds; the devices and the robot's controller cannot wait.
   let_others_go_first();
   while (auto job = sweeps_.pop(stop)) {
+    health_.note_stage("waiting", Clock::now() - job->queued);
     progress_.begin_pass(Clock::now());
     try {
       Pass pass = answer(std::move(*job), stop);
+      health_.note_answer(pass.message, pass.timings, Clock::now());
       pass.is_sent = send(channels_.stairways, ipc::encode(pass.message));
       if (on_pass_) on_pass_(pass);
     } catch (const PassAbandoned&) {

@@ -76,6 +76,9 @@ class Pipeline {
   /// How the recording of the messages is doing, for STAIRWAY_HEALTH.
   void note_recording(const ipc::RecorderStatus& status) { health_.note(status); }
 
+  /// Why messages cannot be sent, empty when they can, for STAIRWAY_HEALTH and whoever reads its text.
+  void note_bus(std::string trouble) { health_.note_bus(std::move(trouble)); }
+
   /// Stops the source (the motor first, then scanning), leaves the pass under way at its next stage, and sends a last
   /// STAIRWAY_HEALTH. Waits at most about 9 s for the disk to stand, and half a second for the detector.
   /// @return Whether it has ended; a stage cannot be interrupted, and takes seconds for a large cloud.
@@ -91,6 +94,7 @@ class Pipeline {
     scan::Sweep sweep;
     std::int64_t begin_utime_us = 0;
     std::int64_t end_utime_us = 0;
+    Clock::time_point queued;
   };
 
   void acquire(std::stop_token stop);
