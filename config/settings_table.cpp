@@ -326,6 +326,8 @@ std::string describe_range(const Entry& entry) {
                     entry.field);
 }
 
+bool changes_live(std::string_view key) { return key.starts_with("detector.") || key.starts_with("log."); }
+
 std::string default_file_text() {
   Settings defaults;
   std::string out =

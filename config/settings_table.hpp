@@ -70,6 +70,9 @@ std::string show_value(const Entry& entry);
 /// The values an entry takes, for a person, e.g. "1..100 mm" or "greedy, thorough or optimizing".
 std::string describe_range(const Entry& entry);
 
+/// Whether a running daemon takes a new value of this key at SIGHUP; the others need a restart.
+bool changes_live(std::string_view key);
+
 /// The text of config/stairwayd.toml: every key, commented out with its default.
 std::string default_file_text();
 

@@ -14,6 +14,7 @@
 
 #include "config/load_settings.hpp"
 #include "config/nearest_key.hpp"
+#include "config/settings_reference.hpp"
 
 namespace stairway::config {
 namespace {
@@ -30,6 +31,15 @@ TEST(SettingsTable, shipped_file_lists_every_key_with_its_default) {
   if (read(shipped) != default_file_text()) {
     std::ofstream(wanted, std::ios::binary) << default_file_text();
     FAIL() << "the table has changed; look at the difference to " << wanted << " and copy it to " << shipped;
+  }
+}
+
+TEST(SettingsTable, reference_page_is_that_of_the_table) {
+  const std::filesystem::path page = STAIRWAY_SOURCE_DIR "/docs/settings.md";
+  const std::filesystem::path wanted = std::filesystem::path(testing::TempDir()) / "settings.md";
+  if (read(page) != settings_reference()) {
+    std::ofstream(wanted, std::ios::binary) << settings_reference();
+    FAIL() << "the table has changed; look at the difference to " << wanted << " and copy it to " << page;
   }
 }
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "config/settings_reference.hpp"
+#include "config/settings_table.hpp"
 #include "tools/stairway/arguments.hpp"
 #include "tools/stairway/verbs.hpp"
 
@@ -37,11 +39,9 @@ void print_settings(const std::vector<ShownSetting>& settings, Format format) {
   for (const ShownSetting& setting : settings) widest = std::max(widest, setting.key.size() + setting.value.size());
   for (const ShownSetting& setting : settings) {
     if (format == Format::Json) {
-      const Json object{{"key", setting.key},
-                        {"value", as_json(setting.value)},
-                        {"range", setting.range},
-                        {"doc", setting.doc},
-                        {"origin", setting.origin}};
+      const Json object{{"key", setting.key},     {"value", as_json(setting.value)},
+                        {"range", setting.range}, {"live", config::changes_live(setting.key)},
+                        {"doc", setting.doc},     {"origin", setting.origin}};
       print_json_line(object.dump());
     } else {
       const std::size_t padding = widest - setting.key.size() - setting.value.size();
@@ -71,6 +71,10 @@ void print_verdict(const std::string& problem, std::size_t set_keys, Format form
 }
 
 int run(const Arguments& arguments) {
+  if (arguments.task == "reference") {
+    print(config::settings_reference());
+    return kExitDone;
+  }
   const auto loaded = load_settings(arguments.settings);
   const bool is_check = arguments.task == "check";
   if (!loaded) {
@@ -94,9 +98,11 @@ Action declare_config(CLI::App& command) {
   command
       .add_option("TASK", arguments->task,
                   "show: every setting and where its value comes from (the default); check: whether stairwayd would "
-                  "take them; diff: those that differ from their default")
-      ->check(CLI::IsMember({"show", "check", "diff"}).description(""))
-      ->type_name("show|check|diff");
+                  "take them; diff: those that differ from their default; reference: every key with its default and "
+                  "meaning, as "
+                  "the page docs/settings.md")
+      ->check(CLI::IsMember({"show", "check", "diff", "reference"}).description(""))
+      ->type_name("show|check|diff|reference");
   add_settings_options(command, arguments->settings);
   add_format_option(command, arguments->format);
   command.footer(

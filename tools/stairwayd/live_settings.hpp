@@ -9,8 +9,8 @@
 
 namespace stairway::daemon {
 
-/// The settings in effect while the daemon runs. The detector's and the log's may change; the others belong to parts
-/// that were made with them.
+/// The settings in effect while the daemon runs. Keys of which config::changes_live() says so may change;
+/// the others belong to parts that were made with them.
 class LiveSettings {
  public:
   explicit LiveSettings(config::Settings settings) : settings_(std::move(settings)) {}
