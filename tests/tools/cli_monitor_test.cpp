@@ -11,6 +11,8 @@
 #include "tests/tools/cli_process.hpp"
 #include "tests/tools/temporary_folder.hpp"
 #include "tools/stairway/daemon_news.hpp"
+#include "tools/stairway/monitor_screen.hpp"
+#include "tools/stairway/screen_text.hpp"
 
 namespace stairway {
 namespace {
@@ -62,6 +64,24 @@ TEST(MonitorVerb, prints_every_answer_as_a_json_line) {
   EXPECT_EQ(second["is_final"], false);
   EXPECT_EQ(second["stairways"][0]["track_id"], 42);
   EXPECT_NEAR(second["stairways"][0]["step_height"].get<double>(), 0.170123, 1e-9);
+}
+
+TEST(MonitorVerb, prints_health_as_json_lines_with_their_channel) {
+  RecordedBus bus;
+  bus.send(kChannels.health, encode(ipc::test::kHealth));
+  bus.send(kChannels.stairways, nothing_found());
+  const auto outcome = bus.monitor({"--format", "json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::size_t end = outcome.out.find('\n');
+  const json health = json::parse(outcome.out.substr(0, end)), answer = json::parse(outcome.out.substr(end));
+  EXPECT_EQ(health["channel"], "STAIRWAY_HEALTH");
+  EXPECT_EQ(health["reasons"], json::parse(R"(["encoder:disconnected", "not-recording"])"));
+  EXPECT_EQ(health["devices"][1]["reason"], "disconnected");
+  EXPECT_TRUE(health["devices"][1]["age_s"].is_null());
+  EXPECT_EQ(health["stages"][1]["p95_ms"], 950.5);
+  EXPECT_EQ(health["clock"]["bound_ms"], 0.45);
+  EXPECT_EQ(health["last"]["stairway_sweep"], 2);
+  EXPECT_EQ(answer["channel"], "STAIRWAY_STAIRWAYS");
 }
 
 TEST(MonitorVerb, prints_every_answer_as_a_table_with_the_truth) {
@@ -128,6 +148,76 @@ TEST(MonitorVerb, waits_for_a_network_without_multicast_route_until_the_time_is_
   const std::string err = test::read_text(folder.path("err"));
   EXPECT_NE(err.find("ip route add 224.0.0.0/4 dev lo; trying again"), std::string::npos) << err;
   EXPECT_NE(err.find("is stairwayd running"), std::string::npos) << err;
+}
+
+tools::MonitorView busy_view() {
+  tools::MonitorView view{.place = "udpm://239.255.76.67:7667", .time = "14:03:12", .health = ipc::test::kHealth};
+  view.answer = ipc::test::sample_stairways();
+  for (const char* stage : {"voxel_grid", "normals", "segmentation", "plane_finder", "stair_graph", "fit", "railing"})
+    view.health->stages.push_back({stage, 10.0, 20.0});
+  view.health->devices[1].state =
+      "no such chip: is the name in encoder.chip one that gpiodetect shows on this computer?";
+  for (const char* reason : {"too-near", "invalid", "unseen-sweeps"}) view.health->drops.emplace_back(reason, 5);
+  return view;
+}
+
+std::string page(const tools::MonitorView& view, std::size_t columns, std::size_t rows) {
+  std::string text;
+  for (const tools::ScreenLine& line : tools::monitor_lines(view, columns, rows)) text += line.text + '\n';
+  return text;
+}
+
+TEST(MonitorScreen, fits_every_size_of_terminal) {
+  for (const std::size_t columns : {1, 20, 40, 60, 76, 80, 132, 300}) {
+    for (const std::size_t rows : {1, 5, 10, 16, 25, 60}) {
+      const auto lines = tools::monitor_lines(busy_view(), columns, rows);
+      EXPECT_LE(lines.size(), rows);
+      for (const tools::ScreenLine& line : lines) EXPECT_LE(line.text.size(), columns) << line.text;
+    }
+  }
+}
+
+TEST(MonitorScreen, usual_terminal_shows_everything_that_matters) {
+  const std::string text = page(busy_view(), 80, 25);
+  for (const char* part : {"stairwayd: encoder:disconnected, not-recording", "14:03:12", " 25 %", "1513400 points",
+                           "a third of the turn is missing", "streaming", "40.0 /s", "no such chip", "clock: tm",
+                           "bound 0.45 ms", "total", "950", "unseen-sweeps", "of sweep 7 (preview)", "spiral", "170.1"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
+}
+
+TEST(MonitorScreen, troubles_come_before_what_every_sweep_has) {
+  const std::string text = page(busy_view(), 80, 25);
+  EXPECT_LT(text.find("unseen-sweeps"), text.find("no-return")) << text;
+}
+
+TEST(MonitorScreen, small_terminal_keeps_devices_and_stairways) {
+  const std::string text = page(busy_view(), 60, 14);
+  EXPECT_NE(text.find("streaming"), std::string::npos) << text;
+  EXPECT_NE(text.find("spiral"), std::string::npos) << text;
+}
+
+TEST(MonitorScreen, state_is_told_and_silence) {
+  tools::MonitorView view = busy_view();
+  view.health_age_s = 12.0;
+  EXPECT_EQ(page(view, 80, 25).find("stairwayd: SILENT for 12 s; it said: scanning"), 0U);
+  view.health_age_s = 0.0;
+  view.health->reasons = {"encoder:disconnected"};
+  view.health->state = "encoder: no such chip";
+  EXPECT_EQ(page(view, 80, 25).find("stairwayd: encoder: no such chip "), 0U);
+  view.health->reasons.push_back("not-recording");
+  EXPECT_EQ(page(view, 80, 25).find("stairwayd: encoder:disconnected, not-recording "), 0U);
+  EXPECT_NE(page({.place = "udpm://x", .note = "no route"}, 80, 25).find("stairwayd: no route"), std::string::npos);
+  EXPECT_NE(page({.place = "udpm://x"}, 80, 25).find("listening to udpm://x"), std::string::npos);
+}
+
+TEST(ScreenText, cannot_steer_the_terminal_and_counts_characters) {
+  EXPECT_EQ(tools::clipped("a\033[2Jb\n", 80), "a [2Jb ");
+  EXPECT_EQ(tools::clipped("\u00e4\u00f6\u00fc", 2), "\u00e4\u00f6");
+  EXPECT_EQ(tools::padded("\u00e4", 3), "\u00e4  ");
+  EXPECT_EQ(tools::wrapped("one two three", 7, 3), (std::vector<std::string>{"one two", "three"}));
+  EXPECT_EQ(tools::wrapped("one two three", 7, 1), std::vector<std::string>{"one two"});
+  EXPECT_EQ(tools::wrapped("onetwothree", 4, 9), (std::vector<std::string>{"onet", "woth", "ree"}));
+  EXPECT_EQ(tools::wrapped("", 4, 9), std::vector<std::string>{""});
 }
 
 TEST(HealthText, names_devices_that_are_silent_and_the_quality_of_the_clock) {

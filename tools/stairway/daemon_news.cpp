@@ -10,6 +10,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "ipc/health_json.hpp"
 #include "ipc/stairway_json.hpp"
 #include "ipc/stairway_text.hpp"
 #include "tools/stairway/truth_table.hpp"
@@ -19,17 +20,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string local_time(std::int64_t utime_us) {
-  const std::time_t seconds = utime_us / 1'000'000;
-  std::tm time{};
-  if (::localtime_r(&seconds, &time) == nullptr) return std::to_string(utime_us);
-  return fmt::format("{:%H:%M:%S}", time);
-}
-
 // The table of `stairway detect`, without its heading about a file and its points.
 std::string table(const detect::Detection& detection) {
   const std::string text = ipc::detection_text("", 0, {}, detection);
   return text.substr(text.find('\n') + 1);
+}
+
+void print_of(const std::string& channel, const std::string& object) {
+  print_json_line(fmt::format("{{\"channel\":{},{}", Json(channel).dump(), object.substr(1)));
 }
 
 std::string heading(const ipc::StairwaysMessage& message) {
@@ -40,6 +38,13 @@ std::string heading(const ipc::StairwaysMessage& message) {
 }
 
 }  // namespace
+
+std::string local_time(std::int64_t utime_us) {
+  const std::time_t seconds = utime_us / 1'000'000;
+  std::tm time{};
+  if (::localtime_r(&seconds, &time) == nullptr) return std::to_string(utime_us);
+  return fmt::format("{:%H:%M:%S}", time);
+}
 
 std::string answer_json(const ipc::StairwaysMessage& message) {
   Json detection = Json::parse(ipc::detection_json("", 0, {}, message.detection));
@@ -91,13 +96,14 @@ void DaemonNews::take_answer(const ipc::StairwaysMessage& message) {
   ++answers_;
   if (!message.detection.stairways.empty()) ++stairways_;
   status_.clear();
-  if (format_ == Format::Json) return print_json_line(answer_json(message));
+  if (format_ == Format::Json) return print_of(channels_.stairways, answer_json(message));
   print(heading(message) + table(message.detection));
   if (truth_) print(truth_text(*truth_, message.detection.stairways));
   flush_output();
 }
 
 void DaemonNews::take_health(const ipc::HealthMessage& message) {
+  if (format_ == Format::Json) return print_of(channels_.health, ipc::health_json(message));
   if (status_.is_visible()) {
     status_.show(health_text(message));
   } else if (!health_ || health_->state != message.state || health_->sweep != message.sweep) {

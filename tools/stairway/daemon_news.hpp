@@ -14,7 +14,8 @@
 
 namespace stairway::tools {
 
-/// Tells a person, or a program, what the messages of stairwayd say: stairways on stdout, the daemon's state on stderr.
+/// Tells a person, or a program, what the messages of stairwayd say. Text: stairways on stdout, the daemon's state on
+/// stderr. JSON: both on stdout, each with the channel that it came on.
 class DaemonNews {
  public:
   /// @param truth  printed below every answer, with the differences.
@@ -45,6 +46,9 @@ class DaemonNews {
   std::int64_t damaged_ = 0;
   std::vector<ipc::MessageFault> told_faults_;
 };
+
+/// The time of day of an instant, e.g. 14:03:12.
+std::string local_time(std::int64_t utime_us);
 
 /// One answer of the daemon as a JSON object on one line: when, which sweep, and the stairways and rejections in the
 /// form of `stairway detect`, every stairway with its `track_id`.

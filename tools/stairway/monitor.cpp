@@ -7,6 +7,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "tools/stairway/arguments.hpp"
 #include "tools/stairway/daemon_news.hpp"
 #include "tools/stairway/interrupts.hpp"
+#include "tools/stairway/live_view.hpp"
 #include "tools/stairway/source.hpp"
 #include "tools/stairway/verbs.hpp"
 
@@ -33,16 +35,24 @@ struct Arguments {
   SettingsArguments settings;
   Format format = Format::Text;
   bool first = false;
+  bool lines = false;
   std::optional<double> timeout_s;
   std::string truth;
 };
 
-tl::expected<std::unique_ptr<ipc::LcmBus>, ipc::BusError> listen(const ipc::BusOptions& options, DaemonNews& news) {
+/// Who is told what is heard.
+struct Hearer {
+  std::function<void(const ipc::BusMessage&)> take;
+  std::function<void(const std::string&)> tell;  ///< why nothing is heard
+  std::function<bool()> has_enough;              ///< asked some times a second
+};
+
+tl::expected<std::unique_ptr<ipc::LcmBus>, ipc::BusError> listen(const ipc::BusOptions& options, const Hearer& hearer) {
   auto bus = ipc::LcmBus::open(options.url);
   if (!bus) return bus;
   const ipc::Channels channels(options.channel_prefix);
   for (const std::string& channel : {channels.stairways, channels.health}) {
-    const auto subscribed = (*bus)->subscribe(channel, [&](const ipc::BusMessage& message) { news.take(message); });
+    const auto subscribed = (*bus)->subscribe(channel, hearer.take);
     if (!subscribed) return tl::unexpected(subscribed.error());
   }
   return bus;
@@ -51,12 +61,12 @@ tl::expected<std::unique_ptr<ipc::LcmBus>, ipc::BusError> listen(const ipc::BusO
 /// Listens until there is a reason to stop. A network that is not there yet is waited for.
 class Listener {
  public:
-  Listener(const Arguments& arguments, const ipc::BusOptions& options, DaemonNews& news)
-      : arguments_(arguments), options_(options), news_(news), start_(Clock::now()) {}
+  Listener(const ipc::BusOptions& options, std::optional<double> timeout_s, Hearer hearer)
+      : options_(options), timeout_s_(timeout_s), hearer_(std::move(hearer)), start_(Clock::now()) {}
 
   void run() {
     while (!is_over()) {
-      auto bus = listen(options_, news_);
+      auto bus = listen(options_, hearer_);
       if (bus) {
         told_.clear();
         pause_ = kFirstPause;
@@ -70,9 +80,8 @@ class Listener {
 
  private:
   bool is_over() const {
-    if (is_interrupted() || (arguments_.first && news_.has_stairway())) return true;
-    return arguments_.timeout_s &&
-           std::chrono::duration<double>(Clock::now() - start_).count() >= *arguments_.timeout_s;
+    if (is_interrupted() || hearer_.has_enough()) return true;
+    return timeout_s_ && std::chrono::duration<double>(Clock::now() - start_).count() >= *timeout_s_;
   }
 
   /// Answers whether to open the bus again.
@@ -89,7 +98,7 @@ class Listener {
   }
 
   void tell(const std::string& text) {
-    if (text != told_) report_error(text);
+    if (text != told_) hearer_.tell(text);
     told_ = text;
   }
 
@@ -99,13 +108,26 @@ class Listener {
     while (Clock::now() < end && !is_over()) std::this_thread::sleep_for(50ms);
   }
 
-  const Arguments& arguments_;
   const ipc::BusOptions& options_;
-  DaemonNews& news_;
+  std::optional<double> timeout_s_;
+  Hearer hearer_;
   Clock::time_point start_;
   std::string told_;
   std::chrono::milliseconds pause_ = kFirstPause;
 };
+
+int watch(const ipc::BusOptions& bus, std::optional<double> timeout_s) {
+  LiveView view(ipc::Channels(bus.channel_prefix), bus.url);
+  const auto has_enough = [&] {
+    view.refresh();
+    return view.is_left();
+  };
+  Listener(bus, timeout_s,
+           {[&](const ipc::BusMessage& message) { view.take(message); },
+            [&](const std::string& trouble) { view.tell(trouble); }, has_enough})
+      .run();
+  return kExitDone;
+}
 
 int run(const Arguments& arguments) {
   const auto loaded = load_settings(arguments.settings);
@@ -124,8 +146,14 @@ int run(const Arguments& arguments) {
   }
   catch_interrupts();
   const ipc::BusOptions& bus = loaded->settings.lcm;
+  const bool wants_lines = arguments.lines || arguments.first || truth || arguments.format == Format::Json;
+  if (!wants_lines && FullScreen::is_possible()) return watch(bus, arguments.timeout_s);
   DaemonNews news(ipc::Channels(bus.channel_prefix), arguments.format, std::move(truth));
-  Listener(arguments, bus, news).run();
+  Listener(
+      bus, arguments.timeout_s,
+      {[&](const ipc::BusMessage& message) { news.take(message); }, [](const std::string& text) { report_error(text); },
+       [&] { return arguments.first && news.has_stairway(); }})
+      .run();
   news.report_damage();
   if (is_interrupted()) return kExitDone;
   if (arguments.first ? news.has_stairway() : news.has_answer()) return kExitDone;
@@ -139,6 +167,7 @@ int run(const Arguments& arguments) {
 Action declare_monitor(CLI::App& command) {
   const auto arguments = std::make_shared<Arguments>();
   command.add_flag("--first", arguments->first, "end after the first message with at least one stairway");
+  command.add_flag("--lines", arguments->lines, "print line after line also on a terminal");
   command
       .add_option("--timeout", arguments->timeout_s,
                   "end after this time [s], with exit code 1 if no answer came, with --first: none with a stairway")
@@ -149,12 +178,16 @@ Action declare_monitor(CLI::App& command) {
   add_settings_options(command, arguments->settings);
   add_format_option(command, arguments->format);
   command.footer(
-      "Stairways go to stdout, the daemon's state to stderr: on a terminal one line that is kept up to date, else a\n"
-      "line for every change.\n"
+      "On a terminal the daemon's state fills the screen, kept up to date until q or Ctrl-C. Elsewhere, and with "
+      "--lines,\n"
+      "--first or --truth, stairways are printed as they come, and the state goes to stderr when it changes. JSON has "
+      "a\n"
+      "line for every message of health (once a second) and of stairways, with its channel.\n"
       "Examples:\n"
       "  stairway monitor\n"
       "  stairway monitor --first --timeout 120 --truth sim:straight-flight\n"
-      "  stairway monitor --format json --config /etc/stairwayd/stairwayd.toml | jq .stairways\n"
+      "  stairway monitor --format json --config /etc/stairwayd/stairwayd.toml | jq 'select(.stairways)'\n"
+      "  stairway monitor --format json | jq --unbuffered -r '.reasons[]?'\n"
       "Exit codes: 0 done, also by Ctrl-C; 1 nothing came; 2 wrong usage or settings.");
   return [arguments] { return run(*arguments); };
 }

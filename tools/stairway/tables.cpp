@@ -12,6 +12,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "ipc/health_json.hpp"
 #include "tools/stairway/daemon_news.hpp"
 
 namespace stairway::tools {
@@ -165,17 +166,6 @@ std::string json_line(const ipc::AnglesMessage& message) {
 
 std::string json_line(const ipc::StairwaysMessage& message) { return answer_json(message) + '\n'; }
 
-std::string json_line(const ipc::HealthMessage& message) {
-  Json drops = Json::object();
-  for (const auto& [name, count] : message.drops) drops[name] = count;
-  return dump({{"utime", message.utime_us},
-               {"state", message.state},
-               {"sweep", message.sweep},
-               {"sweep_progress", message.sweep_progress},
-               {"scan_rate", message.scan_rate_hz},
-               {"disk_rate", message.disk_rate_hz},
-               {"points", message.points},
-               {"drops", std::move(drops)}});
-}
+std::string json_line(const ipc::HealthMessage& message) { return ipc::health_json(message) + '\n'; }
 
 }  // namespace stairway::tools
