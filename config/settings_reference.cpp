@@ -30,7 +30,9 @@ with the key that was probably meant; `stairwayd` then exits with 78 and is not 
 | let a running daemon read the files again | `systemctl reload stairwayd`, or SIGHUP |
 
 `[detector]` and `[log]` change at a reload, the detector from the next sweep on; for every other key that differs the
-log says that it takes a restart. When the new settings are refused, the old ones stay. `stairway` reads the same files.
+log says that it takes a restart. When the new settings are refused, the old ones stay. `stairway config`,
+`doctor`, `monitor`, `record` and `replay` read the same files as the daemon; the verbs that work on files of clouds and
+scenes read what `--config` names and nothing else.
 
 `config/stairwayd.toml` holds the same keys as a file to edit; `profile` chooses the set of defaults.
 )";

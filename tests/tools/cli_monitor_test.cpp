@@ -35,6 +35,17 @@ class RecordedBus {
     return run_stairway(arguments);
   }
 
+  /// What the program writes to a terminal.
+  std::string monitor_on_a_terminal() {
+    bus_.reset();
+    const std::string command = STAIRWAY " monitor --timeout 10 --set 'lcm.url=file://" + path_ + "?mode=r&speed=0'";
+    const std::string typescript = folder_.path("typescript");
+    EXPECT_EQ(
+        std::system(("TERM=xterm script -qec \"" + command + "\" " + typescript + " </dev/null >/dev/null").c_str()),
+        0);
+    return test::read_text(typescript);
+  }
+
  private:
   TemporaryFolder folder_;
   std::string path_;
@@ -91,6 +102,19 @@ TEST(MonitorVerb, prints_every_answer_as_a_table_with_the_truth) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   for (const char* text : {"sweep 7 (preview): 2 stairways", "spiral", "truth", "not found", "2 found that the truth"})
     EXPECT_NE(outcome.out.find(text), std::string::npos) << outcome.out;
+}
+
+TEST(MonitorVerb, fills_a_terminal_and_leaves_it_as_it_was) {
+  RecordedBus bus;
+  bus.send(kChannels.health, encode(ipc::test::kHealth));
+  bus.send(kChannels.stairways, encode(ipc::test::sample_stairways()));
+  const std::string shown = bus.monitor_on_a_terminal();
+  const std::size_t enter = shown.find("\033[?1049h"), state = shown.find("encoder:disconnected, not-recording");
+  const std::size_t stairs = shown.find("spiral"), leave = shown.find("\033[?1049l");
+  EXPECT_LT(enter, state) << shown;
+  EXPECT_LT(state, stairs) << shown;
+  EXPECT_LT(stairs, leave) << shown;
+  EXPECT_NE(leave, std::string::npos) << shown;
 }
 
 TEST(MonitorVerb, first_waits_for_a_stairway_and_then_ends) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -121,11 +122,36 @@ TEST(ConfigVerb, what_show_prints_is_a_settings_file_with_the_same_meaning) {
 }
 
 TEST(ConfigVerb, diff_shows_only_what_differs) {
-  EXPECT_EQ(run_stairway({"config", "diff"}).out, "");
-  const auto outcome = run_stairway({"config", "diff", "--set", "detector.voxel_mm=21", "--set", "simulate.seed=1"});
+  const TemporaryFolder folder;
+  test::write_text(folder.path("empty.toml"), "");
+  const std::string empty = folder.path("empty.toml");
+  EXPECT_EQ(run_stairway({"config", "diff", "--config", empty}).out, "");
+  const auto outcome =
+      run_stairway({"config", "diff", "--config", empty, "--set", "detector.voxel_mm=21", "--set", "simulate.seed=1"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out.find("detector.voxel_mm = 21"), 0U) << outcome.out;
   EXPECT_EQ(outcome.out.find('\n'), outcome.out.size() - 1) << outcome.out;
+}
+
+TEST(ConfigVerb, reads_the_folder_beside_the_file_as_the_daemon_does) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path("conf.d"));
+  test::write_text(folder.path("robot.toml"), "detector.voxel_mm = 12\nlcm = { url = \"memq://\" }\n");
+  test::write_text(folder.path("conf.d/20-more.toml"), "[motor.timing]\n\nheartbeat_s = 0.2\n");
+  const auto config = [&](const std::string& task) {
+    return run_stairway({"config", task, "--config", folder.path("robot.toml"), "--format", "json"});
+  };
+  const std::string out = config("diff").out;
+  EXPECT_NE(out.find("conf.d/20-more.toml:3\""), std::string::npos) << out;
+  EXPECT_NE(out.find("robot.toml:2\""), std::string::npos) << out;
+  EXPECT_NE(out.find(R"("key":"detector.voxel_mm","value":12,"default":10)"), std::string::npos) << out;
+  EXPECT_EQ(json::parse(config("check").out)["files"].size(), 2U);
+
+  test::write_text(folder.path("conf.d/30-wrong.toml"), "motor = { timing = { hartbeat_s = 1 } }\n");
+  const auto refused = config("check");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("conf.d/30-wrong.toml:1:"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("did you mean 'motor.timing.heartbeat_s'?"), std::string::npos) << refused.err;
 }
 
 TEST(ConfigVerb, check_names_file_line_and_key) {

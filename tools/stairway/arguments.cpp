@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <filesystem>
 
 namespace stairway::tools {
 
@@ -28,6 +29,15 @@ void add_format_option(CLI::App& command, Format& format) {
   command.add_option_function<std::string>("--format", choose, "text for people (default) or json for programs")
       ->check(CLI::IsMember({"text", "json"}).description(""))
       ->type_name("text|json");
+}
+
+SettingsArguments as_the_daemon(SettingsArguments arguments) {
+  const auto usual = config::usual_files(arguments.files.empty() ? "" : arguments.files.front());
+  if (!arguments.files.empty()) arguments.files.erase(arguments.files.begin());
+  std::vector<std::string> files;
+  for (const std::filesystem::path& file : usual) files.push_back(file.string());
+  arguments.files.insert(arguments.files.begin(), files.begin(), files.end());
+  return arguments;
 }
 
 tl::expected<config::LoadedSettings, config::SettingsError> load_settings(const SettingsArguments& arguments) {

@@ -26,6 +26,10 @@ struct SettingsArguments {
 void add_settings_options(CLI::App& command, SettingsArguments& arguments);
 void add_format_option(CLI::App& command, Format& format);
 
+/// The same with the files that a daemon with this --config reads: without one its usual file, and in either case the
+/// folder conf.d beside the first.
+SettingsArguments as_the_daemon(SettingsArguments arguments);
+
 tl::expected<config::LoadedSettings, config::SettingsError> load_settings(const SettingsArguments& arguments);
 
 }  // namespace stairway::tools

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The stairwayd authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -34,18 +36,26 @@ Json as_json(const std::string& toml) {
   return value.is_discarded() ? Json(toml) : value;
 }
 
-void print_settings(const std::vector<ShownSetting>& settings, Format format) {
+void print_settings(const std::vector<ShownSetting>& settings, bool is_diff, Format format) {
+  std::map<std::string, std::string> defaults;
+  for (const ShownSetting& setting : config::show_settings(config::LoadedSettings{}))
+    defaults[setting.key] = setting.value;
   std::size_t widest = 0;
   for (const ShownSetting& setting : settings) widest = std::max(widest, setting.key.size() + setting.value.size());
   for (const ShownSetting& setting : settings) {
     if (format == Format::Json) {
-      const Json object{{"key", setting.key},     {"value", as_json(setting.value)},
-                        {"range", setting.range}, {"live", config::changes_live(setting.key)},
-                        {"doc", setting.doc},     {"origin", setting.origin}};
+      const Json object{{"key", setting.key},
+                        {"value", as_json(setting.value)},
+                        {"default", as_json(defaults[setting.key])},
+                        {"range", setting.range},
+                        {"live", config::changes_live(setting.key)},
+                        {"doc", setting.doc},
+                        {"origin", setting.origin}};
       print_json_line(object.dump());
     } else {
       const std::size_t padding = widest - setting.key.size() - setting.value.size();
-      print(fmt::format("{} = {}{:{}}  # {}\n", setting.key, setting.value, "", padding, setting.origin));
+      print(fmt::format("{} = {}{:{}}  # {}{}\n", setting.key, setting.value, "", padding, setting.origin,
+                        is_diff ? "; default " + defaults[setting.key] : ""));
     }
   }
 }
@@ -54,19 +64,19 @@ std::vector<ShownSetting> changed(const std::vector<ShownSetting>& settings) {
   const auto defaults = config::show_settings(config::LoadedSettings{});
   std::vector<ShownSetting> result;
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (settings[i].value == defaults[i].value) continue;
-    result.push_back(settings[i]);
-    result.back().origin += fmt::format("; default {}", defaults[i].value);
+    if (settings[i].value != defaults[i].value) result.push_back(settings[i]);
   }
   return result;
 }
 
-void print_verdict(const std::string& problem, std::size_t set_keys, Format format) {
+void print_verdict(const std::string& problem, const std::vector<std::string>& files, std::size_t changed,
+                   Format format) {
   if (format == Format::Json) {
-    const Json object{{"ok", problem.empty()}, {"problem", problem}, {"set", set_keys}};
+    const Json object{{"ok", problem.empty()}, {"problem", problem}, {"files", files}, {"set", changed}};
     print_json_line(object.dump(-1, ' ', false, Json::error_handler_t::replace));
   } else if (problem.empty()) {
-    print(fmt::format("the settings are usable; {} differ from their default\n", set_keys));
+    print(fmt::format("the settings are usable; {} differ from their default; {}\n", changed,
+                      files.empty() ? "no file was read" : fmt::format("read: {}", fmt::join(files, ", "))));
   }
 }
 
@@ -75,18 +85,19 @@ int run(const Arguments& arguments) {
     print(config::settings_reference());
     return kExitDone;
   }
-  const auto loaded = load_settings(arguments.settings);
-  const bool is_check = arguments.task == "check";
+  const SettingsArguments sources = as_the_daemon(arguments.settings);
+  const auto loaded = load_settings(sources);
+  const bool is_check = arguments.task == "check", is_diff = arguments.task == "diff";
   if (!loaded) {
-    if (is_check) print_verdict(loaded.error().text, 0, arguments.format);
+    if (is_check) print_verdict(loaded.error().text, sources.files, 0, arguments.format);
     report_error(loaded.error().text);
     return is_check ? kExitFailed : kExitUsage;
   }
   const auto shown = config::show_settings(*loaded);
   if (is_check) {
-    print_verdict({}, changed(shown).size(), arguments.format);
+    print_verdict({}, sources.files, changed(shown).size(), arguments.format);
   } else {
-    print_settings(arguments.task == "diff" ? changed(shown) : shown, arguments.format);
+    print_settings(is_diff ? changed(shown) : shown, is_diff, arguments.format);
   }
   return kExitDone;
 }
@@ -106,7 +117,8 @@ Action declare_config(CLI::App& command) {
   add_settings_options(command, arguments->settings);
   add_format_option(command, arguments->format);
   command.footer(
-      "What show and diff print is itself a settings file.\n"
+      "The files are those that the daemon reads: --config or else /etc/stairwayd/stairwayd.toml, then *.toml in the\n"
+      "folder conf.d beside it. What show and diff print is itself a settings file.\n"
       "Examples:\n"
       "  stairway config show --profile depth-camera\n"
       "  stairway config check --config /etc/stairwayd/stairwayd.toml\n"

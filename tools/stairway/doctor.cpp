@@ -25,14 +25,6 @@ struct Arguments {
   bool is_probing = false;
 };
 
-/// Without --config, those of the daemon.
-SettingsArguments with_usual_files(SettingsArguments arguments) {
-  if (arguments.files.empty()) {
-    for (const auto& file : config::usual_files({})) arguments.files.push_back(file.string());
-  }
-  return arguments;
-}
-
 doctor::Check judge_settings(const std::vector<std::string>& files,
                              const tl::expected<config::LoadedSettings, config::SettingsError>& loaded) {
   constexpr const char* kName = "settings";
@@ -73,7 +65,7 @@ doctor::Ports ports_of(const config::Settings& settings) {
 }
 
 int run(const Arguments& arguments) {
-  const SettingsArguments sources = with_usual_files(arguments.settings);
+  const SettingsArguments sources = as_the_daemon(arguments.settings);
   const auto loaded = load_settings(sources);
   const config::Settings settings = loaded ? loaded->settings : config::Settings{};
   std::vector<doctor::Check> checks{judge_settings(sources.files, loaded)};

@@ -130,7 +130,7 @@ int watch(const ipc::BusOptions& bus, std::optional<double> timeout_s) {
 }
 
 int run(const Arguments& arguments) {
-  const auto loaded = load_settings(arguments.settings);
+  const auto loaded = load_settings(as_the_daemon(arguments.settings));
   if (!loaded) {
     report_error(loaded.error().text);
     return kExitUsage;

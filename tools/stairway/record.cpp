@@ -149,7 +149,7 @@ class Recording {
 };
 
 int run(const Arguments& arguments) {
-  const auto loaded = load_settings(arguments.settings);
+  const auto loaded = load_settings(as_the_daemon(arguments.settings));
   const std::string problem =
       loaded ? record_options(arguments, loaded->settings.record).problem() : loaded.error().text;
   if (!problem.empty()) {

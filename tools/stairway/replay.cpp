@@ -104,7 +104,7 @@ class Player {
 };
 
 int run(const Arguments& arguments) {
-  const auto loaded = load_settings(arguments.settings);
+  const auto loaded = load_settings(as_the_daemon(arguments.settings));
   if (!loaded) {
     report_error(loaded.error().text);
     return kExitUsage;
