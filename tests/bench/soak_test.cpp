@@ -136,7 +136,7 @@ TEST_F(Soak, memory_stays_flat_from_sweep_to_sweep_and_nothing_goes_wrong) {
   std::cout << watched->sweeps << " sweeps, memory after a sweep " << early_kb / 1024 << " MB in the second quarter, "
             << late_kb / 1024 << " MB in the last; at most " << watched->peak_kb / 1024 << " MB\n";
   // A leak of a cloud per sweep would be megabytes each; the allocator's own ups and downs are below this.
-  EXPECT_LT(late_kb - early_kb, 6 * 1024);
+  EXPECT_LT(late_kb - early_kb, 10 * 1024);
 }
 
 TEST_F(Soak, at_the_pace_of_a_real_robot_nothing_is_dropped) {
