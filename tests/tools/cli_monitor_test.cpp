@@ -36,13 +36,13 @@ class RecordedBus {
   }
 
   /// What the program writes to a terminal.
-  std::string monitor_on_a_terminal() {
+  std::string monitor_on_a_terminal(int exit_code) {
     bus_.reset();
     const std::string command = STAIRWAY " monitor --timeout 10 --set 'lcm.url=file://" + path_ + "?mode=r&speed=0'";
     const std::string typescript = folder_.path("typescript");
-    EXPECT_EQ(
-        std::system(("TERM=xterm script -qec \"" + command + "\" " + typescript + " </dev/null >/dev/null").c_str()),
-        0);
+    const int status =
+        std::system(("TERM=xterm script -qec \"" + command + "\" " + typescript + " </dev/null >/dev/null").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), exit_code);
     return test::read_text(typescript);
   }
 
@@ -108,13 +108,20 @@ TEST(MonitorVerb, fills_a_terminal_and_leaves_it_as_it_was) {
   RecordedBus bus;
   bus.send(kChannels.health, encode(ipc::test::kHealth));
   bus.send(kChannels.stairways, encode(ipc::test::sample_stairways()));
-  const std::string shown = bus.monitor_on_a_terminal();
+  const std::string shown = bus.monitor_on_a_terminal(0);
   const std::size_t enter = shown.find("\033[?1049h"), state = shown.find("encoder:disconnected, not-recording");
   const std::size_t stairs = shown.find("spiral"), leave = shown.find("\033[?1049l");
   EXPECT_LT(enter, state) << shown;
   EXPECT_LT(state, stairs) << shown;
   EXPECT_LT(stairs, leave) << shown;
   EXPECT_NE(leave, std::string::npos) << shown;
+}
+
+TEST(MonitorVerb, terminal_without_an_answer_is_a_failure) {
+  RecordedBus bus;
+  bus.send(kChannels.health, encode(ipc::test::kHealth));
+  const std::string shown = bus.monitor_on_a_terminal(1);
+  EXPECT_LT(shown.find("\033[?1049l"), shown.find("no answer from file://")) << shown;
 }
 
 TEST(MonitorVerb, first_waits_for_a_stairway_and_then_ends) {

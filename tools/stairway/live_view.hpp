@@ -23,6 +23,7 @@ class LiveView {
   void tell(const std::string& trouble);
   /// Draws what is new: call it some times a second.
   void refresh();
+  bool has_answer() const { return view_.answer.has_value(); }  ///< a stairways message came
   /// Whether the person wants to leave.
   bool is_left() { return screen_.is_left(); }
 

@@ -116,17 +116,29 @@ class Listener {
   std::chrono::milliseconds pause_ = kFirstPause;
 };
 
+int fail(const std::string& what, const ipc::BusOptions& bus) {
+  report_error(
+      fmt::format("{} from {}; is stairwayd running, with the same lcm.url and lcm.channel_prefix?", what, bus.url));
+  return kExitFailed;
+}
+
+/// Shows the state on the whole terminal.
 int watch(const ipc::BusOptions& bus, std::optional<double> timeout_s) {
-  LiveView view(ipc::Channels(bus.channel_prefix), bus.url);
-  const auto has_enough = [&] {
-    view.refresh();
-    return view.is_left();
-  };
-  Listener(bus, timeout_s,
-           {[&](const ipc::BusMessage& message) { view.take(message); },
-            [&](const std::string& trouble) { view.tell(trouble); }, has_enough})
-      .run();
-  return kExitDone;
+  bool is_left = false, has_answer = false;
+  {
+    LiveView view(ipc::Channels(bus.channel_prefix), bus.url);
+    const auto has_enough = [&] {
+      view.refresh();
+      is_left = is_left || view.is_left();
+      return is_left;
+    };
+    Listener(bus, timeout_s,
+             {[&](const ipc::BusMessage& message) { view.take(message); },
+              [&](const std::string& trouble) { view.tell(trouble); }, has_enough})
+        .run();
+    has_answer = view.has_answer();
+  }
+  return is_left || is_interrupted() || has_answer ? kExitDone : fail("no answer", bus);
 }
 
 int run(const Arguments& arguments) {
@@ -157,9 +169,7 @@ int run(const Arguments& arguments) {
   news.report_damage();
   if (is_interrupted()) return kExitDone;
   if (arguments.first ? news.has_stairway() : news.has_answer()) return kExitDone;
-  report_error(fmt::format("{} from {}; is stairwayd running, with the same lcm.url and lcm.channel_prefix?",
-                           news.has_answer() ? "no stairway" : "nothing", bus.url));
-  return kExitFailed;
+  return fail(news.has_answer() ? "no stairway" : "nothing", bus);
 }
 
 }  // namespace
