@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "tools/stairway/screen_text.hpp"
 
@@ -22,6 +23,7 @@ using Lines = std::vector<ScreenLine>;
 constexpr double kSilence_s = 3.0;
 constexpr std::size_t kShownStairways = 4;
 constexpr std::size_t kContinuations = 2;
+constexpr std::size_t kNoteLines = 6;
 constexpr std::size_t kColumn = 38;  // of the two beside each other
 // What every sweep has; troubles and losses are shown before it.
 constexpr std::array<std::string_view, 7> kUsualCounts{"no-return",     "too-near", "disturbed",    "invalid",
@@ -48,8 +50,10 @@ double tidy(double value_m) { return std::round(100.0 * value_m) / 100.0 + 0.0; 
 
 Lines heading_lines(const MonitorView& view, std::size_t columns) {
   if (!view.health) {
-    const std::string text = view.note.empty() ? "no stairwayd heard yet" : view.note;
-    return {{beside("stairwayd: " + text, view.time, columns), Style::Alert}, {"listening to " + view.place}};
+    Lines lines{{beside("stairwayd: nothing heard yet", view.time, columns), Style::Alert},
+                {"listening to " + view.place}};
+    for (std::string& part : wrapped(view.note, columns, kNoteLines)) lines.push_back({std::move(part)});
+    return lines;
   }
   const ipc::HealthMessage& health = *view.health;
   const bool is_silent = view.health_age_s > kSilence_s;
