@@ -16,13 +16,34 @@ std::string SimulationOptions::problem() const {
   return {};
 }
 
+ipc::BusOptions SourceOptions::bus(const ipc::BusOptions& own) const {
+  ipc::BusOptions bus = own;
+  if (!lcm_url.empty()) bus.url = lcm_url;
+  if (!lcm_channel_prefix.empty()) bus.channel_prefix = lcm_channel_prefix;
+  return bus;
+}
+
+namespace {
+
+std::string source_problem(const SourceOptions& source, const ipc::BusOptions& own) {
+  if (source.kind != SourceKind::Lcm) return {};
+  const ipc::BusOptions bus = source.bus(own);
+  const bool is_network = bus.url.starts_with("udpm://") || bus.url.starts_with("tcpq://");
+  if (!is_network) return "kind = \"lcm\" takes a URL that starts with udpm:// or tcpq://; --replay plays a file";
+  return bus.problem();
+}
+
+}  // namespace
+
 std::string Settings::problem() const {
   const std::pair<const char*, std::string> problems[] = {
-      {"lcm", lcm.problem()},           {"lidar", lidar.problem()}, {"lidar", usb.problem()},
-      {"lidar", sync_input.problem()},  {"disk", disk.problem()},   {"motor", motor.problem()},
-      {"encoder", encoder.problem()},   {"mount", mount.problem()}, {"sweep", sweep.problem()},
-      {"detector", detector.problem()}, {"input", input.problem()}, {"simulate", simulate.problem()},
-      {"record", record.problem()},
+      {"lcm", lcm.problem()},         {"lidar", lidar.problem()},
+      {"lidar", usb.problem()},       {"lidar", sync_input.problem()},
+      {"disk", disk.problem()},       {"motor", motor.problem()},
+      {"encoder", encoder.problem()}, {"mount", mount.problem()},
+      {"sweep", sweep.problem()},     {"detector", detector.problem()},
+      {"input", input.problem()},     {"simulate", simulate.problem()},
+      {"record", record.problem()},   {"source", source_problem(source, lcm)},
   };
   for (const auto& [section, problem] : problems) {
     if (!problem.empty()) return std::string(section) + ": " + problem;

@@ -47,6 +47,22 @@ struct SimulationOptions {
   std::string problem() const;
 };
 
+/// Where the daemon's measurements come from.
+enum class SourceKind {
+  Hardware,  ///< scanner, motor and encoder of this robot
+  Simulate,  ///< a simulated robot
+  Lcm,       ///< another process, by its scans and disk angles on LCM
+};
+
+struct SourceOptions {
+  SourceKind kind = SourceKind::Hardware;
+  std::string lcm_url;             ///< of the other process; empty is that of `lcm`
+  std::string lcm_channel_prefix;  ///< likewise
+
+  /// Where the other process sends to, when `own` is where this one does.
+  ipc::BusOptions bus(const ipc::BusOptions& own) const;
+};
+
 struct ReplayOptions {
   double speed = 1.0;  ///< recorded seconds per second; 0 is as fast as possible
 };
@@ -76,6 +92,7 @@ struct Settings {
   SimulationOptions simulate;
   ipc::RecordOptions record;
   ReplayOptions replay;
+  SourceOptions source;
 
   /// First problem of any part, beginning with the section it is in; empty when usable.
   std::string problem() const;

@@ -271,6 +271,14 @@ void add_replay_settings(std::vector<Entry>& table, ReplayOptions& replay) {
       .real("speed", replay.speed, kPlain, {0, 1000}, "recorded seconds per second; 0 is as fast as possible");
 }
 
+void add_source_settings(std::vector<Entry>& table, SourceOptions& source) {
+  Section(table, "source")
+      .choice("kind", source.kind, {"hardware", "simulate", "lcm"},
+              "where measurements come from: this robot's devices, a simulated robot, or another process over LCM")
+      .text("lcm_url", source.lcm_url, "where that process sends to; empty is lcm.url")
+      .text("lcm_channel_prefix", source.lcm_channel_prefix, "of its channels; empty is lcm.channel_prefix");
+}
+
 }  // namespace
 
 std::vector<Entry> settings_table(Settings& settings) {
@@ -280,7 +288,8 @@ std::vector<Entry> settings_table(Settings& settings) {
       .choice("level", settings.log.level, {"error", "warning", "info", "debug"}, "how much is said on stderr");
   Section(table, "lcm")
       .text("url", settings.lcm.url, "LCM provider; ttl=0 keeps messages on this host")
-      .text("channel_prefix", settings.lcm.channel_prefix, "in front of every channel name");
+      .text("channel_prefix", settings.lcm.channel_prefix, "in front of every channel name")
+      .on_off("scans", settings.lcm.scans, "send every scan and every disk angle, some 300 kB a second");
   add_lidar_settings(table, settings.lidar, settings.usb, settings.sync_input);
   add_disk_settings(table, settings.disk);
   add_motor_settings(table, settings.motor);
@@ -292,6 +301,7 @@ std::vector<Entry> settings_table(Settings& settings) {
   add_simulation_settings(table, settings.simulate);
   add_record_settings(table, settings.record);
   add_replay_settings(table, settings.replay);
+  add_source_settings(table, settings.source);
   return table;
 }
 

@@ -11,6 +11,7 @@ namespace stairway::ipc {
 struct BusOptions {
   std::string url = "udpm://239.255.76.67:7667?ttl=0";  ///< LCM provider; ttl=0 keeps messages on this host
   std::string channel_prefix = "STAIRWAY_";             ///< in front of every channel name; tells several robots apart
+  bool scans = true;                                    ///< send scans and disk angles; recordings hold them anyway
 
   /// First problem found, worded for the person who set it; empty when usable.
   std::string problem() const;

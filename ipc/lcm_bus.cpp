@@ -12,6 +12,9 @@
 namespace stairway::ipc {
 namespace {
 
+// Of a subscription; LCM drops what comes beyond. Some seconds of scans and angles.
+constexpr int kWaitingMessages = 500;
+
 void hand_on(const lcm_recv_buf_t* message, const char* channel, void* handler) {
   const std::span bytes(static_cast<const std::uint8_t*>(message->data), message->data_size);
   (*static_cast<MessageHandler*>(handler))({channel, bytes, message->recv_utime});
@@ -72,9 +75,11 @@ tl::expected<void, BusError> LcmBus::publish(const std::string& channel, std::sp
 
 tl::expected<void, BusError> LcmBus::subscribe(const std::string& pattern, MessageHandler handler) {
   auto kept = std::make_unique<MessageHandler>(std::move(handler));
-  if (lcm_subscribe(lcm_, pattern.c_str(), hand_on, kept.get()) == nullptr) {
+  lcm_subscription_t* subscription = lcm_subscribe(lcm_, pattern.c_str(), hand_on, kept.get());
+  if (subscription == nullptr) {
     return error(BusFault::BadChannel, fmt::format("cannot subscribe to '{}' on {}", pattern, url_));
   }
+  lcm_subscription_set_queue_capacity(subscription, kWaitingMessages);
   handlers_.push_back(std::move(kept));
   return {};
 }

@@ -4,11 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "ipc/message_codec.hpp"
-#include "scan_assembly/scan_placement.hpp"
 
 namespace stairway::tools {
 namespace {
@@ -65,46 +63,20 @@ tl::expected<RecordedMeasurements, ipc::LogError> RecordedMeasurements::open(con
 }
 
 RecordedMeasurements::RecordedMeasurements(ipc::EventLogReader reader, const RecordingFacts& facts)
-    : reader_(std::move(reader)), channels_(facts.channel_prefix), has_angles_(facts.has_angles) {}
+    : reader_(std::move(reader)), stream_(ipc::Channels(facts.channel_prefix), facts.has_angles) {}
 
 std::optional<RecordedMeasurements::Entry> RecordedMeasurements::next() {
   while (true) {
-    if (auto measurement = order_.next()) return Entry{std::move(*measurement), last_utime_us_};
-    const auto event = reader_.next();
-    if (event) {
-      take(*event);
+    if (auto measurement = stream_.next()) return Entry{std::move(*measurement), last_utime_us_};
+    if (const auto event = reader_.next()) {
+      last_utime_us_ = event->utime_us;
+      stream_.take(event->channel, event->bytes);
       continue;
     }
-    order_.end();
-    if (auto measurement = order_.next()) return Entry{std::move(*measurement), last_utime_us_};
+    stream_.end();
+    if (auto measurement = stream_.next()) return Entry{std::move(*measurement), last_utime_us_};
     return std::nullopt;
   }
-}
-
-void RecordedMeasurements::take(const ipc::LogEvent& event) {
-  last_utime_us_ = event.utime_us;
-  const auto take_if_decoded = [&](auto message) {
-    message ? take(std::move(*message)) : static_cast<void>(++undecodable_);
-  };
-  if (event.channel == channels_.scan) take_if_decoded(ipc::decode<ipc::ScanMessage>(event.bytes));
-  if (event.channel == channels_.angles) take_if_decoded(ipc::decode<ipc::AnglesMessage>(event.bytes));
-}
-
-void RecordedMeasurements::take(ipc::ScanMessage message) {
-  const drivers::LaserScan& scan = message.scan;
-  offset_us_ = message.utime_us - scan.first_beam_stamp_ns / 1000;
-  if (!has_angles_ && message.disk_angle_valid) {
-    const std::size_t last_beam = std::max<std::size_t>(1, scan.ranges_m.size()) - 1;
-    const drivers::HostStamp first_ns = scan.first_beam_stamp_ns, last_ns = scan::beam_stamp_ns(scan, last_beam);
-    order_.add(ipc::AnglesMessage{
-        .samples = {{first_ns, message.disk_angle_start_rad, true}, {last_ns, message.disk_angle_end_rad, true}}});
-  }
-  order_.add(std::move(message));
-}
-
-void RecordedMeasurements::take(ipc::AnglesMessage message) {
-  if (!offset_us_ && !message.samples.empty()) offset_us_ = message.utime_us - message.samples.front().stamp_ns / 1000;
-  order_.add(std::move(message));
 }
 
 std::string describe_flaws(const RecordedMeasurements& recording) {

@@ -11,7 +11,7 @@
 #include "ipc/channels.hpp"
 #include "ipc/messages.hpp"
 #include "ipc/recording/event_log_reader.hpp"
-#include "tools/recording/measurement_order.hpp"
+#include "tools/recording/measurement_stream.hpp"
 
 namespace stairway::tools {
 
@@ -42,25 +42,18 @@ class RecordedMeasurements {
   std::optional<Entry> next();
 
   /// The instant of a stamp by the clocks of the newest scan that was read; by those of the first angles before one.
-  std::int64_t utime_us(drivers::HostStamp stamp_ns) const { return offset_us_.value_or(0) + stamp_ns / 1000; }
+  std::int64_t utime_us(drivers::HostStamp stamp_ns) const { return stream_.utime_us(stamp_ns); }
 
   /// Complete at the end.
   const ipc::LogDamage& damage() const { return reader_.damage(); }
-  std::uint64_t undecodable_messages() const { return undecodable_; }
+  std::uint64_t undecodable_messages() const { return stream_.undecodable_messages(); }
 
  private:
   RecordedMeasurements(ipc::EventLogReader reader, const RecordingFacts& facts);
-  void take(const ipc::LogEvent& event);
-  void take(ipc::ScanMessage message);
-  void take(ipc::AnglesMessage message);
 
   ipc::EventLogReader reader_;
-  ipc::Channels channels_;
-  bool has_angles_;
-  MeasurementOrder order_;
+  MeasurementStream stream_;
   std::int64_t last_utime_us_ = 0;
-  std::optional<std::int64_t> offset_us_;
-  std::uint64_t undecodable_ = 0;
 };
 
 /// What is wrong with a recording that was read to its end, for a person; empty for a good one.

@@ -13,17 +13,19 @@ constexpr const char* kFooter =
     "Without --config the file is /etc/stairwayd/stairwayd.toml if it exists. SIGHUP reads them again.\n\n"
     "A recording is replayed with its own mount, sweep and detector, or with --config's; --set changes either. The\n"
     "daemon ends with it. SIGUSR2 writes a snapshot of the last sweeps (record.mode = \"snapshot\").\n\n"
-    "Without --simulate and --replay it runs on the scanner (USB), the disk motor (CAN) and the encoder (GPIO) that "
-    "the\n"
-    "settings name, and waits for those that are missing; stairway doctor says what is wrong with them.\n\n"
+    "The source hardware is the scanner (USB), the disk motor (CAN) and the encoder (GPIO) that the settings name; it\n"
+    "waits for those that are missing, and stairway doctor says what is wrong with them. The source lcm takes the\n"
+    "scans and disk angles of another process, of `stairway replay` or of lcm-logplayer (source.lcm_url).\n\n"
     "Exit codes: 0 ended by SIGTERM, SIGINT, --once or the end of a recording; 1 failure; 2 wrong usage; 78 bad\n"
     "settings.\n\n"
     "Examples:\n"
     "  stairwayd --simulate=straight-flight --set simulate.speed=0 --once\n"
+    "  stairwayd --source lcm --set source.lcm_channel_prefix=FRONT_\n"
     "  stairwayd --replay stairway-000012.lcm --set replay.speed=0 --set detector.voxel_mm=20";
 
 // Texts that become settings.
 struct Shorthands {
+  std::string source;
   std::string scene;
   std::string log_level;
 };
@@ -41,18 +43,24 @@ void declare_options(CLI::App& app, CommandLine& line) {
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  CLI::Option* source = app.add_option("--source", shorthands->source, "Where measurements come from (source.kind)")
+                            ->type_name("hardware|simulate|lcm")
+                            ->check(CLI::IsMember({"hardware", "simulate", "lcm"}).description(""));
   CLI::Option* simulate =
       app.add_option("--simulate", shorthands->scene, "Run on a simulated robot, in a shipped scene or a scene file")
           ->type_name("[SCENE]")
-          ->expected(0, 1);
+          ->expected(0, 1)
+          ->excludes(source);
   app.add_option("--replay", line.replay, "Play a recording instead, as fast as replay.speed says")
       ->type_name("FILE")
-      ->excludes(simulate);
+      ->excludes(simulate)
+      ->excludes(source);
   app.add_flag("--check-config", line.is_check, "Say whether the settings are in order, and exit");
   app.add_flag("--once", line.is_once, "Exit after the first sweep's answer has been sent");
   app.add_option("--log-level", shorthands->log_level, "error, warning, info or debug")->type_name("LEVEL");
   app.callback([shorthands, simulate, &line] {
-    line.is_simulation = simulate->count() > 0;
+    if (simulate->count() > 0) shorthands->source = "simulate";
+    if (!shorthands->source.empty()) line.assignments.push_back("source.kind=" + shorthands->source);
     if (!shorthands->scene.empty()) line.assignments.push_back("simulate.scene=" + shorthands->scene);
     if (!shorthands->log_level.empty()) line.assignments.push_back("log.level=" + shorthands->log_level);
   });

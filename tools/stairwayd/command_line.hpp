@@ -14,9 +14,9 @@ namespace stairway::daemon {
 /// What the command line of stairwayd says.
 struct CommandLine {
   std::string config;
-  std::vector<std::string> assignments;  ///< of --set, --simulate and --log-level, in the order in which they count
+  std::vector<std::string>
+      assignments;  ///< of --set, --source, --simulate and --log-level, in the order in which they count
   std::string replay;
-  bool is_simulation = false;
   bool is_check = false;
   bool is_once = false;
 };

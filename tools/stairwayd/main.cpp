@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,7 @@
 #include "tools/sim/scene_file.hpp"
 #include "tools/stairwayd/command_line.hpp"
 #include "tools/stairwayd/hardware_source.hpp"
+#include "tools/stairwayd/lcm_source.hpp"
 #include "tools/stairwayd/live_settings.hpp"
 #include "tools/stairwayd/log.hpp"
 #include "tools/stairwayd/pass_log.hpp"
@@ -36,6 +38,7 @@
 #include "tools/stairwayd/signals.hpp"
 #include "tools/stairwayd/simulated_source.hpp"
 #include "tools/stairwayd/status_text.hpp"
+#include "tools/stairwayd/withheld_channels.hpp"
 
 namespace {
 
@@ -107,9 +110,10 @@ int run(const CommandLine& line, const config::Settings& settings, const daemon:
   daemon::LiveSettings live(settings);
   daemon::PatientPublisher bus(settings.lcm.url);
   const auto recorder = make_recorder(settings);
+  const std::set<std::string> withheld = daemon::withheld_channels(settings);
   const auto publish = [&](const std::string& channel, std::span<const std::uint8_t> bytes) {
     if (recorder) recorder->add(channel, bytes, utime_now_us());
-    return bus.publish(channel, bytes);
+    return withheld.contains(channel) || bus.publish(channel, bytes);
   };
   daemon::PassLog pass_log;
   std::atomic<bool> is_answered = false;
@@ -175,25 +179,35 @@ tl::expected<tools::RecordingFacts, ipc::LogError> prepare_replay(CommandLine& l
   return facts;
 }
 
+/// Of the kinds that need no check of their own.
+std::unique_ptr<daemon::MeasurementSource> make_source(const config::Settings& settings) {
+  if (settings.source.kind == config::SourceKind::Lcm)
+    return std::make_unique<daemon::LcmSource>(settings.source.bus(settings.lcm));
+  return std::make_unique<daemon::HardwareSource>(settings, daemon::hardware_ports(settings),
+                                                  daemon::utime_of_monotonic_us);
+}
+
 int run(CommandLine line) {
   std::optional<tools::RecordingFacts> recording;
   if (!line.replay.empty()) {
     auto facts = prepare_replay(line);
     if (!facts) return fail(kFailure, facts.error().text);
     recording = std::move(*facts);
+    // Whatever else the settings name is not asked.
+    line.assignments.push_back("source.kind=hardware");
   }
   const auto loaded = config::load_settings(settings_sources(line));
   if (!loaded) return fail(kBadSettings, loaded.error().text);
+  const config::Settings& settings = loaded->settings;
   std::unique_ptr<daemon::MeasurementSource> source;
   if (recording) {
-    auto replay = daemon::ReplaySource::open(line.replay, *recording, loaded->settings.replay.speed);
+    auto replay = daemon::ReplaySource::open(line.replay, *recording, settings.replay.speed);
     if (!replay) return fail(kFailure, replay.error().text);
     source = std::move(*replay);
   }
   try {
-    if (line.is_simulation) {
-      source = std::make_unique<daemon::SimulatedSource>(loaded->settings, utime_now_us());
-    }
+    if (settings.source.kind == config::SourceKind::Simulate)
+      source = std::make_unique<daemon::SimulatedSource>(settings, utime_now_us());
   } catch (const sim::SceneFileError& error) {
     return fail(kBadSettings, error.what());
   } catch (const std::invalid_argument& error) {
@@ -206,11 +220,8 @@ int run(CommandLine line) {
   // Before the hardware: a port may start a thread, and a signal that reaches it would end the process at once.
   const daemon::Signals signals;
   try {
-    if (!source) {
-      source = std::make_unique<daemon::HardwareSource>(loaded->settings, daemon::hardware_ports(loaded->settings),
-                                                        daemon::utime_of_monotonic_us);
-    }
-    return run(line, loaded->settings, signals, std::move(source));
+    if (!source) source = make_source(settings);
+    return run(line, settings, signals, std::move(source));
   } catch (const std::exception& error) {
     // Caught so that the source is destroyed, which stops the disk.
     return fail(kFailure, error.what());

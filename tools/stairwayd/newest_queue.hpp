@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -45,6 +46,16 @@ class NewestQueue {
       is_closed_ = true;
     }
     arrived_.notify_all();
+  }
+
+  /// Waits at most so long for a value.
+  std::optional<T> pop_within(std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    if (!arrived_.wait_for(lock, timeout, [this] { return !values_.empty(); })) return std::nullopt;
+    T value = std::move(values_.front());
+    values_.pop_front();
+    taken_.notify_one();
+    return value;
   }
 
   /// Waits for a value; empty when asked to stop, or closed and empty.

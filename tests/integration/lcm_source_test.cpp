@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+
+#include "ipc/channels.hpp"
+#include "ipc/message_codec.hpp"
+#include "ipc/recording/event_log_reader.hpp"
+#include "tests/integration/daemon_process.hpp"
+#include "tests/integration/listener.hpp"
+#include "tests/integration/private_network.hpp"
+#include "tests/tools/temporary_folder.hpp"
+
+namespace stairway::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Generous, since sanitizers make the daemon ten times slower; nothing waits for it to pass.
+constexpr auto kPatience = 200s;
+
+const ipc::Channels kChannels;
+
+// Settings of both runs, since they decide the answers.
+std::vector<std::string> with_settings(std::vector<std::string> arguments) {
+  for (const char* setting : {"detector.voxel_mm=30", "disk.period_s=3", "record.min_free_mb=0"})
+    arguments.insert(arguments.end(), {"--set", setting});
+  return arguments;
+}
+
+std::filesystem::path only_file(const std::filesystem::path& folder) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) return entry.path();
+  return {};
+}
+
+/// Records the simulated robot until it has given an answer to a whole turn.
+std::filesystem::path record_run(const std::string& folder) {
+  DaemonProcess daemon(
+      with_settings({"--simulate=straight-flight", "--set", "simulate.speed=0", "--set", "lcm.url=memq://", "--set",
+                     "record.mode=continuous", "--set", "record.folder=" + folder, "--log-level", "debug"}));
+  EXPECT_TRUE(daemon.has_said("sweep 1: ", kPatience));
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait(kPatience), 0);
+  return only_file(folder);
+}
+
+std::vector<ipc::Bytes> answers_in(const std::filesystem::path& path) {
+  std::vector<ipc::Bytes> answers;
+  auto reader = ipc::EventLogReader::open(path);
+  if (!reader) return answers;
+  while (const auto event = reader->next()) {
+    if (event->channel == kChannels.stairways) answers.emplace_back(event->bytes.begin(), event->bytes.end());
+  }
+  return answers;
+}
+
+std::optional<ipc::DeviceHealth> scanner_of(const Listener& heard) {
+  if (heard.healths.empty()) return std::nullopt;
+  for (const ipc::DeviceHealth& device : heard.healths.back().devices) {
+    if (device.name == "scanner") return device;
+  }
+  return std::nullopt;
+}
+
+bool says_of_scanner(const Listener& heard, const std::string& text) {
+  const auto scanner = scanner_of(heard);
+  return scanner && scanner->state.find(text) != std::string::npos;
+}
+
+class LcmSourceTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_private_network()) GTEST_SKIP() << "this kernel permits no network namespaces (unshare -n)";
+    add_multicast_route();
+  }
+};
+
+TEST_F(LcmSourceTest, replayed_measurements_give_the_stairways_of_the_run_and_are_not_sent_again) {
+  const TemporaryFolder folder;
+  const auto file = record_run(folder.path("live"));
+  const auto answers = answers_in(file);
+  ASSERT_FALSE(answers.empty());
+
+  Listener listener;
+  DaemonProcess daemon(with_settings(
+      {"--source", "lcm", "--set", "record.mode=continuous", "--set", "record.folder=" + folder.path("heard")}));
+  ASSERT_TRUE(listener.listen(
+      kPatience, [](const Listener& heard) { return says_of_scanner(heard, "waiting for STAIRWAY_SCAN at udpm://"); }));
+  DaemonProcess player({"replay", file, "--rate", "2", "--channels", "STAIRWAY_(SCAN|ANGLES|DISK)"}, {}, STAIRWAY);
+  const auto has_all = [&](const Listener& heard) { return heard.answers.size() >= answers.size(); };
+  EXPECT_TRUE(listener.listen(kPatience, has_all)) << daemon.output();
+  EXPECT_EQ(player.wait(kPatience), 0);
+  EXPECT_TRUE(
+      listener.listen(kPatience, [](const Listener& heard) { return says_of_scanner(heard, "nothing more comes"); }));
+  EXPECT_FALSE(scanner_of(listener)->is_ok);
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait(kPatience), 0);
+
+  std::size_t scans = 0;
+  auto reader = ipc::EventLogReader::open(file);
+  while (const auto event = reader->next()) scans += event->channel == kChannels.scan;
+  EXPECT_EQ(listener.scans.size(), scans);
+  const auto heard = answers_in(only_file(folder.path("heard")));
+  ASSERT_GE(heard.size(), answers.size());
+  for (std::size_t i = 0; i < answers.size(); ++i) EXPECT_EQ(heard[i], answers[i]) << i;
+}
+
+TEST_F(LcmSourceTest, file_for_a_url_is_refused) {
+  DaemonProcess daemon({"--source", "lcm", "--set", "source.lcm_url=file:///tmp/a.lcm"});
+  EXPECT_EQ(daemon.wait(kPatience), 78);
+  EXPECT_NE(daemon.output().find("--replay plays a file"), std::string::npos) << daemon.output();
+}
+
+TEST_F(LcmSourceTest, scans_can_be_kept_from_the_network) {
+  Listener listener;
+  DaemonProcess daemon(with_settings({"--simulate=straight-flight", "--set", "lcm.scans=false"}));
+  EXPECT_TRUE(listener.listen(kPatience, [](const Listener& heard) {
+    return !heard.healths.empty() && heard.healths.back().scan_rate_hz > 0.0 && heard.disks.size() > 5;
+  }));
+  EXPECT_TRUE(listener.scans.empty());
+}
+
+}  // namespace
+}  // namespace stairway::test
