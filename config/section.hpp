@@ -15,6 +15,7 @@ inline constexpr Unit kMetre{"m", 1.0};
 inline constexpr Unit kDegree{"deg", std::numbers::pi / 180.0};
 inline constexpr Unit kMilliradian{"mrad", 1e-3};
 inline constexpr Unit kSecond{"s", 1.0};
+inline constexpr Unit kMegabytePerSecond{"mb_s", 1.0};
 inline constexpr Unit kHertz{"hz", 1.0};
 inline constexpr Unit kDegreePerSecond{"deg_s", std::numbers::pi / 180.0};
 inline constexpr Unit kDegreePerSecond2{"deg_s2", std::numbers::pi / 180.0};

@@ -15,6 +15,7 @@
 #include "drivers/scip/sync_input.hpp"
 #include "drivers/usb/usb_options.hpp"
 #include "ipc/channels.hpp"
+#include "ipc/cloud_options.hpp"
 #include "ipc/recording/record_options.hpp"
 #include "scan_assembly/frames.hpp"
 #include "scan_assembly/sweep_assembler.hpp"
@@ -63,6 +64,11 @@ struct SourceOptions {
   ipc::BusOptions bus(const ipc::BusOptions& own) const;
 };
 
+struct CommandOptions {
+  bool listen = true;       ///< obey what comes on STAIRWAY_COMMAND
+  double max_age_s = 10.0;  ///< an older command is refused [s], 0.1..86400
+};
+
 struct ReplayOptions {
   double speed = 1.0;  ///< recorded seconds per second; 0 is as fast as possible
 };
@@ -93,6 +99,8 @@ struct Settings {
   ipc::RecordOptions record;
   ReplayOptions replay;
   SourceOptions source;
+  CommandOptions command;
+  ipc::CloudOptions cloud;
 
   /// First problem of any part, beginning with the section it is in; empty when usable.
   std::string problem() const;

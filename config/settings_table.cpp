@@ -60,6 +60,8 @@ void add_lidar_settings(std::vector<Entry>& table, drivers::ScipOptions& lidar, 
 void add_disk_settings(std::vector<Entry>& table, drivers::DiskOptions& disk) {
   Section(table, "disk")
       .real("period", disk.period_s, kSecond, {-600, 600}, "one turn; negative is clockwise, seen from above")
+      .choice("mode", disk.mode, {"continuous", "single", "idle"},
+              "after the start: sweep after sweep, one whole sweep, or at rest with the motor off; commands change it")
       .choice("angle_source", disk.angle_source, {"encoder", "drive"},
               "whose angles place the beams; drive is for a robot without an encoder")
       .real("drive_zero", disk.drive_zero_rad, kDegree, {-180, 180},
@@ -257,7 +259,7 @@ void add_record_settings(std::vector<Entry>& table, ipc::RecordOptions& record) 
       .choice("mode", record.mode, {"off", "continuous", "snapshot"},
               "record all messages, or keep the last sweeps for a request (SIGUSR2)")
       .text("folder", record.folder, "where recordings go")
-      .on_off("raw", record.raw, "bytes of the devices too, if they are sent")
+      .on_off("raw", record.raw, "the bytes to and from the scanner too")
       .whole("max_file_mb", record.max_file_mb, 1, 100000, "size at which a new file is begun, in MB")
       .real("max_file", record.max_file_s, kSecond, {1, 100000}, "age at which a new file is begun")
       .whole("max_total_mb", record.max_total_mb, 1, 1000000, "the oldest files go to keep all below this, in MB")
@@ -269,6 +271,20 @@ void add_record_settings(std::vector<Entry>& table, ipc::RecordOptions& record) 
 void add_replay_settings(std::vector<Entry>& table, ReplayOptions& replay) {
   Section(table, "replay")
       .real("speed", replay.speed, kPlain, {0, 1000}, "recorded seconds per second; 0 is as fast as possible");
+}
+
+void add_cloud_settings(std::vector<Entry>& table, ipc::CloudOptions& cloud) {
+  Section(table, "cloud")
+      .on_off("send", cloud.send, "the points of every sweep, in slices on STAIRWAY_CLOUD; never recorded")
+      .whole("slice_bytes", cloud.slice_bytes, 1000, 60000, "size of a slice; small ones live longer on a radio link")
+      .real("rate", cloud.rate_mb_s, kMegabytePerSecond, {0.1, 1000}, "how fast the slices of a cloud go out");
+}
+
+void add_command_settings(std::vector<Entry>& table, CommandOptions& command) {
+  Section(table, "command")
+      .on_off("listen", command.listen, "obey what comes on STAIRWAY_COMMAND")
+      .real("max_age", command.max_age_s, kSecond, {0.1, 86400},
+            "an older command is refused: it comes from a recording, or the clocks differ");
 }
 
 void add_source_settings(std::vector<Entry>& table, SourceOptions& source) {
@@ -289,7 +305,10 @@ std::vector<Entry> settings_table(Settings& settings) {
   Section(table, "lcm")
       .text("url", settings.lcm.url, "LCM provider; ttl=0 keeps messages on this host")
       .text("channel_prefix", settings.lcm.channel_prefix, "in front of every channel name")
-      .on_off("scans", settings.lcm.scans, "send every scan and every disk angle, some 300 kB a second");
+      .on_off("scans", settings.lcm.scans, "send every scan and every disk angle, some 300 kB a second")
+      .on_off("raw", settings.lcm.raw, "send the bytes between this computer and the scanner too");
+  add_cloud_settings(table, settings.cloud);
+  add_command_settings(table, settings.command);
   add_lidar_settings(table, settings.lidar, settings.usb, settings.sync_input);
   add_disk_settings(table, settings.disk);
   add_motor_settings(table, settings.motor);

@@ -33,6 +33,9 @@ class DiskMotor {
   /// From now on, as soon as the drive is ready; 0 brakes and leaves the drive enabled [rad/s of the disk].
   void set_speed(double speed_rad_s) { session_.set_speed(speed_rad_s); }
 
+  /// Begins the stop sequence of `stop`, in the polls that follow; `start` begins again.
+  void rest() { session_.stop(); }
+
   /// Brakes as fast as the drive can and goes on like `stop`, in the polls that follow; `start` begins again.
   void quick_stop() { session_.quick_stop(); }
   void start() { session_.start(); }

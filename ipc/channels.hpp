@@ -12,6 +12,7 @@ struct BusOptions {
   std::string url = "udpm://239.255.76.67:7667?ttl=0";  ///< LCM provider; ttl=0 keeps messages on this host
   std::string channel_prefix = "STAIRWAY_";             ///< in front of every channel name; tells several robots apart
   bool scans = true;                                    ///< send scans and disk angles; recordings hold them anyway
+  bool raw = false;                                     ///< send the scanner's bytes
 
   /// First problem found, worded for the person who set it; empty when usable.
   std::string problem() const;
@@ -30,15 +31,21 @@ struct Channels {
         stairways(prefix + "STAIRWAYS"),
         health(prefix + "HEALTH"),
         settings(prefix + std::string(kSettingsChannelName)),
-        raw(prefix + "RAW") {}
+        raw(prefix + "RAW"),
+        cloud(prefix + "CLOUD"),
+        command(prefix + "COMMAND"),
+        command_ack(prefix + "COMMAND_ACK") {}
 
-  std::string scan;       ///< scan_t
-  std::string disk;       ///< disk_t
-  std::string angles;     ///< angles_t
-  std::string stairways;  ///< stairways_t
-  std::string health;     ///< health_t
-  std::string settings;   ///< settings_t
-  std::string raw;        ///< the bytes of the devices as they came, by whatever program sends them
+  std::string scan;         ///< scan_t
+  std::string disk;         ///< disk_t
+  std::string angles;       ///< angles_t
+  std::string stairways;    ///< stairways_t
+  std::string health;       ///< health_t
+  std::string settings;     ///< settings_t
+  std::string raw;          ///< raw_t
+  std::string cloud;        ///< cloud_slice_t
+  std::string command;      ///< command_t, to the daemon
+  std::string command_ack;  ///< command_ack_t
 };
 
 }  // namespace stairway::ipc

@@ -12,13 +12,17 @@
 #include <stairway/stairways_t.hpp>
 
 #include "ipc/message_walker.hpp"
+#include "ipc/wire_message.hpp"
 
 namespace stairway::ipc {
 namespace {
 
-// Layouts of the types in ipc/types, field by field; the fingerprint comes first.
-constexpr std::size_t kFingerprint = 8;
-constexpr std::size_t kWord = 8;  // int64_t and double
+using wire::enumerator;
+using wire::kFingerprint;
+using wire::kWord;
+using wire::to_bytes;
+
+// Layouts of the types in ipc/types, field by field.
 
 bool has_layout(std::span<const std::uint8_t> bytes, const scan_t*) {
   MessageWalker walker(bytes);
@@ -80,34 +84,9 @@ bool has_layout(std::span<const std::uint8_t> bytes, const settings_t*) {
 }
 
 template <class Wire>
-bool has_fingerprint(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < kFingerprint) return false;
-  std::int64_t fingerprint = 0;
-  __int64_t_decode_array(bytes.data(), 0, kFingerprint, &fingerprint, 1);
-  return fingerprint == Wire::getHash();
-}
-
-template <class Wire>
 tl::expected<Wire, MessageFault> from_bytes(std::span<const std::uint8_t> bytes) {
-  if (!has_fingerprint<Wire>(bytes)) return tl::unexpected(MessageFault::WrongType);
-  Wire wire{};
-  if (!has_layout(bytes, &wire)) return tl::unexpected(MessageFault::BadSize);
-  if (wire.decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) return tl::unexpected(MessageFault::BadSize);
-  return wire;
-}
-
-template <class Wire>
-Bytes to_bytes(const Wire& wire) {
-  Bytes bytes(static_cast<std::size_t>(wire.getEncodedSize()));
-  wire.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
-/// The enumerator number `value`, if there is one up to `last`.
-template <class Enum>
-std::optional<Enum> enumerator(int value, Enum last) {
-  if (value < 0 || value > static_cast<int>(last)) return std::nullopt;
-  return static_cast<Enum>(value);
+  const Wire* type = nullptr;
+  return wire::from_bytes<Wire>(bytes, [type](std::span<const std::uint8_t> all) { return has_layout(all, type); });
 }
 
 static_assert(scan_t::INVALID == static_cast<int>(drivers::BeamStatus::Invalid));

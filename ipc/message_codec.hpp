@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -23,6 +24,9 @@ std::string_view to_string(MessageFault fault);
 
 using Bytes = std::vector<std::uint8_t>;
 
+/// Of a point in cloud_slice_t.
+inline constexpr std::size_t kCloudPointBytes = 12;
+
 /// The LCM encoding of a message, fingerprint first. Nothing is rounded. A scan whose two lists differ in length is
 /// sent as long as its `ranges_m`, missing statuses as Invalid.
 Bytes encode(const ScanMessage& message);
@@ -31,6 +35,10 @@ Bytes encode(const AnglesMessage& message);
 Bytes encode(const StairwaysMessage& message);
 Bytes encode(const HealthMessage& message);
 Bytes encode(const SettingsMessage& message);
+Bytes encode(const CommandMessage& message);
+Bytes encode(const CommandAckMessage& message);
+Bytes encode(const CloudSliceMessage& message);
+Bytes encode(const RawMessage& message);
 
 /// The message in `bytes`, e.g. `decode<ScanMessage>(bytes)`. The bytes may come from anyone: sizes are checked before
 /// memory is taken, and whatever is wrong gives an error value.
@@ -49,6 +57,14 @@ template <>
 tl::expected<HealthMessage, MessageFault> decode<HealthMessage>(std::span<const std::uint8_t> bytes);
 template <>
 tl::expected<SettingsMessage, MessageFault> decode<SettingsMessage>(std::span<const std::uint8_t> bytes);
+template <>
+tl::expected<CommandMessage, MessageFault> decode<CommandMessage>(std::span<const std::uint8_t> bytes);
+template <>
+tl::expected<CommandAckMessage, MessageFault> decode<CommandAckMessage>(std::span<const std::uint8_t> bytes);
+template <>
+tl::expected<CloudSliceMessage, MessageFault> decode<CloudSliceMessage>(std::span<const std::uint8_t> bytes);
+template <>
+tl::expected<RawMessage, MessageFault> decode<RawMessage>(std::span<const std::uint8_t> bytes);
 
 /// The `utime` with which every message of ours begins, without a look at the rest; empty if there are too few bytes.
 std::optional<std::int64_t> message_utime_us(std::span<const std::uint8_t> bytes);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "detector/stairway.hpp"
+#include "drivers/disk/disk_options.hpp"
 #include "drivers/scip/clock_mapping.hpp"
 #include "drivers/types.hpp"
 
@@ -121,6 +122,51 @@ struct HealthMessage {
   ClockHealth clock;
   std::vector<StageHealth> stages;
   ResultHealth result;
+};
+
+enum class CommandAction { Start, Stop, SingleSweep, SetSpeed, Unknown };
+
+/// command_t
+struct CommandMessage {
+  std::int64_t utime_us = 0;
+  std::int64_t id = 0;
+  CommandAction action = CommandAction::Start;  ///< Unknown: one that this version does not know
+  double speed_rad_s = 0.0;
+};
+
+enum class CommandResult { Accepted, BadValue, WrongSource, TooOld };
+
+/// command_ack_t
+struct CommandAckMessage {
+  std::int64_t utime_us = 0;
+  std::int64_t id = 0;
+  CommandResult result = CommandResult::Accepted;
+  std::string text;
+  drivers::DiskMode mode = drivers::DiskMode::Continuous;
+  double speed_rad_s = 0.0;
+
+  bool operator==(const CommandAckMessage&) const = default;
+};
+
+/// cloud_slice_t
+struct CloudSliceMessage {
+  std::int64_t utime_us = 0;
+  std::int64_t sweep_start_utime_us = 0;
+  std::int64_t sweep = 0;
+  std::int32_t slice = 0;
+  std::int32_t slices = 1;
+  std::int32_t first_point = 0;
+  std::int32_t sweep_points = 0;
+  std::vector<Eigen::Vector3f> points;
+};
+
+/// raw_t
+struct RawMessage {
+  std::int64_t utime_us = 0;
+  drivers::HostStamp host_stamp_ns = 0;
+  std::string device;
+  bool is_sent = false;
+  std::string bytes;
 };
 
 /// settings_t

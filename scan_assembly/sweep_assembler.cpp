@@ -18,8 +18,7 @@ constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr double kTremble_rad = 0.02;        // about 13 counts of a 4096-line encoder
 constexpr double kMaxCutDistance_rad = 0.5;  // farther from the whole turn, the angle jumped
 constexpr double kFlawShare = 0.01;
-constexpr std::uint64_t kMaxGap = 100000;  // scans; beyond it the stream began anew
-constexpr double kRounding_turns = 1e-9;   // keeps an angle on the boundary on its side of it
+constexpr double kRounding_turns = 1e-9;  // keeps an angle on the boundary on its side of it
 constexpr std::size_t kMaxUntaken = 2;
 
 HostStamp last_beam_stamp_ns(const LaserScan& scan) {
@@ -45,6 +44,8 @@ const char* to_string(SweepEnd end) {
       return "time limit";
     case SweepEnd::PointLimit:
       return "point limit";
+    case SweepEnd::NewStream:
+      return "a pause of the scanner";
     case SweepEnd::Flushed:
       return "flushed";
   }
@@ -105,8 +106,7 @@ std::optional<Sweep> SweepAssembler::take_sweep() {
 
 void SweepAssembler::flush() {
   while (!waiting_.empty()) place_oldest();
-  if (sweep_) end_sweep(SweepEnd::Flushed);
-  if (turn_) turn_->entered.reset();
+  if (sweep_) cut_sweep(SweepEnd::Flushed);
 }
 
 void SweepAssembler::place_known_scans() {
@@ -126,7 +126,9 @@ void SweepAssembler::place_oldest() {
 void SweepAssembler::count_scan(const LaserScan& scan) {
   std::uint64_t lost = 0;
   if (last_sequence_) {
-    const bool is_gap = scan.sequence > *last_sequence_ && scan.sequence - *last_sequence_ <= kMaxGap;
+    const bool is_later = scan.sequence > *last_sequence_;
+    const bool is_gap = is_later && scan.sequence - *last_sequence_ <= kMaxLostScans;
+    if (is_later && !is_gap && sweep_) cut_sweep(SweepEnd::NewStream);
     lost = is_gap ? scan.sequence - *last_sequence_ - 1 : 0;
     line_ += lost + 1;
   }
@@ -137,10 +139,7 @@ void SweepAssembler::count_scan(const LaserScan& scan) {
     const std::size_t points = sweep_->cloud.points.size() + placed_.points.size();
     const bool is_too_long = age_s >= options_.max_duration_s;
     const bool is_too_large = points > static_cast<std::size_t>(options_.max_points);
-    if (is_too_long || is_too_large) {
-      end_sweep(is_too_long ? SweepEnd::TimeLimit : SweepEnd::PointLimit);
-      if (turn_) turn_->entered.reset();
-    }
+    if (is_too_long || is_too_large) cut_sweep(is_too_long ? SweepEnd::TimeLimit : SweepEnd::PointLimit);
   }
   if (!sweep_) begin_sweep(scan.first_beam_stamp_ns);
 
@@ -223,6 +222,11 @@ void SweepAssembler::begin_sweep(HostStamp begin_ns) {
   sweep_->lines.reserve(expected_points_);
   sweep_->beams.reserve(expected_points_);
   first_line_ = line_;
+}
+
+void SweepAssembler::cut_sweep(SweepEnd end) {
+  end_sweep(end);
+  if (turn_) turn_->entered.reset();
 }
 
 void SweepAssembler::end_sweep(SweepEnd end) {

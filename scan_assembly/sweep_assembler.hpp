@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,11 +31,15 @@ struct SweepOptions {
   std::string problem() const;
 };
 
+/// More scans are not lost in a row; a larger step of the sequence numbers says that the stream began anew.
+inline constexpr std::uint64_t kMaxLostScans = 100000;
+
 /// Why a sweep ended where it did.
 enum class SweepEnd {
   FullTurn,    ///< the disk passed a whole turn
   TimeLimit,   ///< max_duration_s: the disk stands, turns too slowly, or its angle is not known
   PointLimit,  ///< max_points
+  NewStream,   ///< the scanner's stream paused, and began anew at a much larger sequence number
   Flushed,     ///< the caller asked for it
 };
 const char* to_string(SweepEnd end);
@@ -47,6 +52,9 @@ struct SweepStatistics {
   std::uint64_t scans = 0;          ///< mirror turns that began in it
   std::uint64_t lost_scans = 0;     ///< missing between them by their sequence numbers
   std::uint64_t hurried_scans = 0;  ///< placed before their angle was known, since too many were waiting
+
+  /// Whether it covers a turn, but for a degree or three, wherever it began.
+  bool covers_whole_turn() const { return covered_angle_rad >= 0.99 * 2.0 * std::numbers::pi; }
 
   /// What a person should know before trusting the cloud, one sentence each; empty for a good sweep.
   std::vector<std::string> flaws() const;
@@ -112,6 +120,7 @@ class SweepAssembler {
   void append_points(const drivers::LaserScan& scan);
   void append_run(std::size_t begin, std::size_t end);
   void follow_turn(double angle_rad, drivers::HostStamp stamp_ns);
+  void cut_sweep(SweepEnd end);
   void end_sweep(SweepEnd end);
 
   SweepOptions options_;

@@ -11,6 +11,18 @@ bool is_within(double value, double min, double max) { return value >= min && va
 
 }  // namespace
 
+const char* to_string(DiskMode mode) {
+  switch (mode) {
+    case DiskMode::Continuous:
+      return "continuous sweeps";
+    case DiskMode::SingleSweep:
+      return "a single sweep";
+    case DiskMode::Idle:
+      return "idle";
+  }
+  return "unknown";
+}
+
 std::string DiskOptions::problem() const {
   if (!is_within(std::abs(period_s), 1.0, 600.0)) return "period must lie within 1 .. 600 s or -600 .. -1 s";
   if (!is_within(drive_zero_rad, -std::numbers::pi, std::numbers::pi))

@@ -14,9 +14,18 @@ enum class AngleSource : std::uint8_t {
   Drive,    ///< the motor drive's position, for a robot without an encoder; its zero is only as good as a setting
 };
 
+/// What the disk is there for at the moment.
+enum class DiskMode : std::uint8_t {
+  Continuous,   ///< turns and turns
+  SingleSweep,  ///< turns until one sweep of a whole turn is complete, then rests
+  Idle,         ///< rests, with the drive switched off, until a command
+};
+const char* to_string(DiskMode mode);
+
 /// How the disk is turned, and what its supervision tolerates.
 struct DiskOptions {
-  double period_s = 35.0;  ///< one turn [s], negative turns clockwise seen from above; 1..600 or -600..-1
+  double period_s = 35.0;                ///< one turn [s], negative turns clockwise seen from above; 1..600 or -600..-1
+  DiskMode mode = DiskMode::Continuous;  ///< after the start; commands change it
   AngleSource angle_source = AngleSource::Encoder;
   double drive_zero_rad = 0.0;  ///< the drive's angle where the disk's is 0 [rad], in [-pi, pi]; for AngleSource::Drive
   double idle_after_s = 60.0;   ///< how long the disk goes on turning without scans or without encoder [s], 0..86400

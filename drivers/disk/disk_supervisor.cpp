@@ -27,7 +27,17 @@ bool DiskSupervisor::Presence::is_recent(HostStamp now_ns, double idle_after_s) 
   return is_present || (lost_ns && now_ns - *lost_ns < to_ns(idle_after_s));
 }
 
-DiskSupervisor::DiskSupervisor(const DiskOptions& options, const DiskUnits& units) : options_(options), units_(units) {}
+DiskSupervisor::DiskSupervisor(const DiskOptions& options, const DiskUnits& units)
+    : options_(options),
+      units_(units),
+      is_ordered_(options.mode != DiskMode::Idle),
+      full_speed_rad_s_(options.speed_rad_s()) {}
+
+void DiskSupervisor::order(bool may_turn, double speed_rad_s, HostStamp now_ns) {
+  is_ordered_ = may_turn;
+  full_speed_rad_s_ = speed_rad_s;
+  if (speed_in(state_) != wanted_rad_s_) want(speed_in(state_), now_ns);
+}
 
 void DiskSupervisor::on_scanner(bool is_streaming, HostStamp now_ns) { scanner_.set(is_streaming, now_ns); }
 
@@ -67,7 +77,7 @@ std::vector<DiskEvent> DiskSupervisor::on_time(HostStamp now_ns) {
 
 bool DiskSupervisor::may_turn(HostStamp now_ns) const {
   const bool is_angle_expected = !has_encoder() || encoder_.is_recent(now_ns, options_.idle_after_s);
-  return is_angle_expected && scanner_.is_recent(now_ns, options_.idle_after_s) && is_set_up(motor_);
+  return is_ordered_ && is_angle_expected && scanner_.is_recent(now_ns, options_.idle_after_s) && is_set_up(motor_);
 }
 
 void DiskSupervisor::choose_state(HostStamp now_ns) {
@@ -83,11 +93,15 @@ void DiskSupervisor::choose_state(HostStamp now_ns) {
 void DiskSupervisor::enter(DiskState state, HostStamp now_ns) {
   if (state == state_) return;
   state_ = state;
-  const double full_rad_s = options_.speed_rad_s();
-  const double check_rad_s = std::copysign(std::min(std::abs(full_rad_s), options_.check_speed_rad_s), full_rad_s);
-  want(state == DiskState::Turning ? full_rad_s : state == DiskState::Checking ? check_rad_s : 0.0, now_ns);
+  want(speed_in(state), now_ns);
   if (state == DiskState::Paused) pause_end_ns_ = now_ns + to_ns(options_.retry_s);
   events_.emplace_back(DiskStateEvent{state_, problem_});
+}
+
+double DiskSupervisor::speed_in(DiskState state) const {
+  if (state == DiskState::Turning) return full_speed_rad_s_;
+  if (state != DiskState::Checking) return 0.0;
+  return std::copysign(std::min(std::abs(full_speed_rad_s_), options_.check_speed_rad_s), full_speed_rad_s_);
 }
 
 void DiskSupervisor::want(double speed_rad_s, HostStamp now_ns) {

@@ -30,6 +30,9 @@ class DiskSupervisor {
   /// @pre  options.problem() is empty.
   DiskSupervisor(const DiskOptions& options, const DiskUnits& units);
 
+  /// From now on: whether the disk may turn at all, and how fast it does when it turns [rad/s], not 0.
+  void order(bool may_turn, double speed_rad_s, HostStamp now_ns);
+
   void on_scanner(bool is_streaming, HostStamp now_ns);
   void on_motor(MotorState state, HostStamp now_ns);
   void on_feedback(const DriveFeedback& feedback);
@@ -59,6 +62,7 @@ class DiskSupervisor {
   bool may_turn(HostStamp now_ns) const;
   void choose_state(HostStamp now_ns);
   void enter(DiskState state, HostStamp now_ns);
+  double speed_in(DiskState state) const;
   void want(double speed_rad_s, HostStamp now_ns);
   void compare(HostStamp now_ns);
   void conclude(const std::optional<DiskTroubleEvent>& finding, HostStamp now_ns);
@@ -68,6 +72,8 @@ class DiskSupervisor {
 
   DiskOptions options_;
   DiskUnits units_;
+  bool is_ordered_;
+  double full_speed_rad_s_;
   Presence scanner_;
   Presence encoder_;
   MotorState motor_ = MotorState::Searching;

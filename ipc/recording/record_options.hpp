@@ -16,7 +16,7 @@ enum class RecordMode {
 struct RecordOptions {
   RecordMode mode = RecordMode::Off;
   std::string folder = "/var/lib/stairwayd/recordings";  ///< made if it does not exist
-  bool raw = false;              ///< STAIRWAY_RAW too, the bytes of the devices, if somebody sends them
+  bool raw = false;              ///< STAIRWAY_RAW too, the bytes to and from the scanner
   int max_file_mb = 500;         ///< a larger file is continued in a new one [MB], 1..100000
   double max_file_s = 3600.0;    ///< an older one likewise [s], 1..100000
   int max_total_mb = 4000;       ///< the oldest recordings go, to keep all together below this [MB], 1..1000000

@@ -31,6 +31,8 @@ Recorder::~Recorder() { close(); }
 
 void Recorder::add(std::string_view channel, std::span<const std::uint8_t> bytes, std::int64_t utime_us) {
   if (channel == channels_.raw && !options_.raw) return;
+  // A replay makes it again; it would be twice the rest.
+  if (channel == channels_.cloud) return;
   StoredEvent event{utime_us, std::string(channel), {bytes.begin(), bytes.end()}};
   const std::lock_guard lock(mutex_);
   if (is_closed_) return;

@@ -120,6 +120,29 @@ TEST(DeviceWatch, with_the_drive_as_angle_source_its_positions_are_the_disk_s_an
   EXPECT_EQ(samples[2].stamp_ns, 4);
 }
 
+drivers::LaserScan numbered_scan(std::uint64_t sequence) {
+  drivers::LaserScan scan;
+  scan.sequence = sequence;
+  return scan;
+}
+
+TEST(DeviceWatch, scans_of_a_resting_disk_are_left_out_and_the_next_one_begins_another_sweep) {
+  DeviceWatch watch({});
+  watch.take(numbered_scan(1), 1);
+  watch.order({false, 0.2}, 2);
+  EXPECT_FALSE(watch.is_motor_wanted());
+  watch.take(numbered_scan(2), 3);
+  watch.take(MotorStateEvent{MotorState::Stopped}, 3);
+  watch.order({true, 0.2}, 4);
+  watch.take(numbered_scan(3), 5);
+  const auto events = watch.take_events();
+  const auto scans = only<drivers::LaserScan>(events);
+  ASSERT_EQ(scans.size(), 2u);
+  EXPECT_EQ(scans[0].sequence, 1u);
+  EXPECT_EQ(scans[1].sequence, 3u + scan::kMaxLostScans + 1);
+  EXPECT_EQ(last_state(events, Device::Motor)->condition, Condition::Good) << "it is off because it shall be";
+}
+
 TEST(DeviceWatch, disk_turns_when_all_devices_are_ready) {
   DeviceWatch watch({});
   watch.take(ScipStateEvent{ScipState::Streaming}, 0);

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <map>
 
 #include "tools/sim/scene_file.hpp"
@@ -80,6 +81,39 @@ TEST_F(HardwareSourceTest, threads_bring_the_devices_up_lose_one_and_get_it_back
   source.stop();
   EXPECT_EQ(robot.disk_speed_rad_s(), 0.0);
   source.stop();
+}
+
+TEST_F(HardwareSourceTest, disk_rests_with_its_motor_off_turns_again_and_follows_another_speed) {
+  const auto utime_us = [](drivers::HostStamp stamp_ns) { return stamp_ns / 1000; };
+  HardwareSource source(settings, ports(robot), utime_us);
+  ASSERT_TRUE(reads_until(source, [&] { return is_turning() && scans > 0; }));
+  EXPECT_EQ(source.order({false, settings.disk.speed_rad_s()}), "");
+  ASSERT_TRUE(reads_until(source, [&] { return states[Device::Motor].text == "stopped"; }));
+  EXPECT_TRUE(is_good(Device::Motor));
+  EXPECT_LE(std::abs(robot.disk_speed_rad_s()), settings.motor.standstill_speed_rad_s);
+  scans = 0;
+  const drivers::HostStamp later_ns = robot.now_ns() + 300'000'000;
+  ASSERT_TRUE(reads_until(source, [&] { return robot.now_ns() > later_ns; }));
+  EXPECT_EQ(scans, 0);
+  EXPECT_EQ(robot.disk_speed_rad_s(), 0.0);
+
+  const double speed_rad_s = -2.0 * settings.disk.speed_rad_s();
+  EXPECT_EQ(source.order({true, speed_rad_s}), "");
+  EXPECT_TRUE(reads_until(source, [&] { return robot.disk_speed_rad_s() < 0.9 * speed_rad_s && scans > 0; }));
+  EXPECT_EQ(source.order({true, 0.5 * speed_rad_s}), "");
+  EXPECT_TRUE(reads_until(source, [&] { return std::abs(robot.disk_speed_rad_s() / speed_rad_s - 0.5) < 0.05; }));
+  source.stop();
+  EXPECT_EQ(robot.disk_speed_rad_s(), 0.0);
+}
+
+TEST_F(HardwareSourceTest, idle_from_the_start_leaves_the_motor_off) {
+  config::Settings idle = settings;
+  idle.disk.mode = drivers::DiskMode::Idle;
+  HardwareSource source(idle, ports(robot), [](drivers::HostStamp stamp_ns) { return stamp_ns / 1000; });
+  ASSERT_TRUE(reads_until(source, [&] { return is_good(Device::Motor) && is_good(Device::Scanner); }));
+  EXPECT_EQ(states[Device::Motor].text, "stopped");
+  EXPECT_EQ(robot.disk_speed_rad_s(), 0.0);
+  EXPECT_EQ(scans, 0);
 }
 
 TEST_F(HardwareSourceTest, destruction_stops_the_disk_too) {

@@ -49,6 +49,7 @@ class ScriptedSource final : public MeasurementSource {
     if (events_.empty()) std::this_thread::sleep_for(std::min(timeout, 5ms));
     return std::exchange(events_, {});
   }
+  std::string order(const DiskOrder&) override { return "a script is played"; }
   void stop() override { is_stopped_ = true; }
   std::int64_t utime_us(drivers::HostStamp stamp_ns) const override { return 1'000'000 + stamp_ns / 1000; }
 

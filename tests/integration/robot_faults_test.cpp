@@ -82,6 +82,7 @@ class Robot {
   }
   void take(const SourceSign&) {}
   void take(const SourceNote&) {}
+  void take(RawBytes&) {}
   void take(const drivers::ClockQuality&) {}
 
   SimulatedSource source_;

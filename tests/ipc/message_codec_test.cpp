@@ -9,6 +9,7 @@
 namespace stairway::ipc {
 namespace {
 
+using test::kAck, test::kCommand, test::kRaw, test::kSlice;
 using test::kAngles, test::kDisk, test::kHealth, test::kSettings;
 
 void expect_equal(const detect::Stairway& a, const detect::Stairway& b) {
@@ -175,6 +176,44 @@ TEST(MessageCodec, angles_come_back_bit_for_bit) {
   EXPECT_EQ(message_utime_us({}), std::nullopt);
 }
 
+TEST(MessageCodec, commands_and_their_answers_come_back_as_sent) {
+  const auto command = decode<CommandMessage>(encode(kCommand));
+  ASSERT_TRUE(command);
+  EXPECT_EQ(command->utime_us, kCommand.utime_us);
+  EXPECT_EQ(command->id, kCommand.id);
+  EXPECT_EQ(command->action, kCommand.action);
+  EXPECT_EQ(command->speed_rad_s, kCommand.speed_rad_s);
+  EXPECT_EQ(decode<CommandAckMessage>(encode(kAck)), kAck);
+
+  Bytes strange = encode(kCommand);
+  strange[24] = 99;  // behind fingerprint, utime and id
+  EXPECT_EQ(decode<CommandMessage>(strange)->action, CommandAction::Unknown) << "its sender gets an answer";
+}
+
+TEST(MessageCodec, slices_and_raw_bytes_come_back_as_sent) {
+  const auto slice = decode<CloudSliceMessage>(encode(kSlice));
+  ASSERT_TRUE(slice);
+  EXPECT_EQ(slice->utime_us, kSlice.utime_us);
+  EXPECT_EQ(slice->sweep_start_utime_us, kSlice.sweep_start_utime_us);
+  EXPECT_EQ(slice->sweep, kSlice.sweep);
+  EXPECT_EQ(slice->slice, kSlice.slice);
+  EXPECT_EQ(slice->slices, kSlice.slices);
+  EXPECT_EQ(slice->first_point, kSlice.first_point);
+  EXPECT_EQ(slice->sweep_points, kSlice.sweep_points);
+  EXPECT_EQ(slice->points, kSlice.points);
+  const Bytes bytes = encode(kSlice);
+  const Bytes first_float(bytes.end() - 24, bytes.end() - 20);
+  EXPECT_EQ(first_float, (Bytes{0x00, 0x00, 0x80, 0x3f})) << "1.0, little-endian";
+
+  const auto raw = decode<RawMessage>(encode(kRaw));
+  ASSERT_TRUE(raw);
+  EXPECT_EQ(raw->utime_us, kRaw.utime_us);
+  EXPECT_EQ(raw->host_stamp_ns, kRaw.host_stamp_ns);
+  EXPECT_EQ(raw->device, kRaw.device);
+  EXPECT_EQ(raw->is_sent, kRaw.is_sent);
+  EXPECT_EQ(raw->bytes, kRaw.bytes);
+}
+
 TEST(MessageCodec, cut_or_longer_message_is_an_error) {
   expect_error_for_every_other_length(test::sample_stairways());
   expect_error_for_every_other_length(test::sample_scan());
@@ -182,6 +221,10 @@ TEST(MessageCodec, cut_or_longer_message_is_an_error) {
   expect_error_for_every_other_length(kAngles);
   expect_error_for_every_other_length(kHealth);
   expect_error_for_every_other_length(kSettings);
+  expect_error_for_every_other_length(kCommand);
+  expect_error_for_every_other_length(kAck);
+  expect_error_for_every_other_length(kSlice);
+  expect_error_for_every_other_length(kRaw);
 }
 
 template <class Message>
@@ -209,6 +252,10 @@ TEST(MessageCodec, damaged_message_gives_an_error_or_one_of_the_same_size) {
   expect_survival_of_damage(kAngles);
   expect_survival_of_damage(kHealth);
   expect_survival_of_damage(kSettings);
+  expect_survival_of_damage(kCommand);
+  expect_survival_of_damage(kAck);
+  expect_survival_of_damage(kSlice);
+  expect_survival_of_damage(kRaw);
 }
 
 TEST(MessageCodec, values_outside_an_enumeration_are_refused) {

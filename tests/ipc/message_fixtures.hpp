@@ -25,6 +25,11 @@ inline const HealthMessage kHealth{
     {drivers::ClockSource::TimeAdjustment, 25.01, 23.1, 0.9, 0.45, 0.1, 0.7, 0.3, -12.5, 2},
     {{"acquisition", 0.3, 1.2}, {"total", 800.0, 950.5}},
     {2, 0.5, 1513400, "a third of the turn is missing", 1, 2, 0.25}};
+inline const CommandMessage kCommand{7, -3, CommandAction::SetSpeed, -0.5};
+inline const CommandAckMessage kAck{8,   -3, CommandResult::BadValue, "no such speed", drivers::DiskMode::SingleSweep,
+                                    0.25};
+inline const CloudSliceMessage kSlice{5, 4, 3, 1, 2, 10, 12, {{1.0F, -2.0F, 0.1F}, {1e30F, 0.0F, -0.0F}}};
+inline const RawMessage kRaw{6, 5, "scanner", true, std::string("MD\n\0\xff", 5)};
 inline const SettingsMessage kSettings{1, "0.1.0", "[lcm]\nurl = \"memq://\"\n"};
 
 inline detect::Stairway sample_stairway() {

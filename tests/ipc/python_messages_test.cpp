@@ -35,7 +35,11 @@ std::map<std::string, Bytes> sample_messages() {
           {"angles_t", encode(test::kAngles)},
           {"stairways_t", encode(test::sample_stairways())},
           {"health_t", encode(test::kHealth)},
-          {"settings_t", encode(test::kSettings)}};
+          {"settings_t", encode(test::kSettings)},
+          {"command_t", encode(test::kCommand)},
+          {"command_ack_t", encode(test::kAck)},
+          {"cloud_slice_t", encode(test::kSlice)},
+          {"raw_t", encode(test::kRaw)}};
 }
 
 /// The fields of every sample as Python read them, by type; Python has encoded them again into the folder.
@@ -78,6 +82,9 @@ TEST(PythonMessages, are_read_as_cpp_wrote_them) {
   EXPECT_EQ(got["health_t"]["stage_p95_ms"], json::parse("[1.2, 950.5]"));
   EXPECT_EQ(got["health_t"]["last_sweep_points"], 1513400);
   EXPECT_EQ(got["settings_t"]["toml"], test::kSettings.toml);
+  EXPECT_EQ(got["command_ack_t"]["text"], "no such speed");
+  EXPECT_EQ(got["cloud_slice_t"]["points"].size(), 24u);
+  EXPECT_EQ(got["raw_t"]["bytes"][4], 255);
 }
 
 TEST(MessageTypes, every_field_tells_its_unit_and_what_it_means) {

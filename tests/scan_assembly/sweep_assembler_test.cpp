@@ -197,8 +197,10 @@ TEST(SweepAssembler, takes_a_stream_that_begins_anew_without_inventing_losses) {
   rig.assembler.add(scan);
   rig.assembler.flush();
   rig.take();
-  EXPECT_EQ(rig.sweeps.at(0).statistics.lost_scans, 0U);
-  EXPECT_EQ(rig.sweeps.at(0).lines.back(), 3U);
+  ASSERT_EQ(rig.sweeps.size(), 2U);
+  EXPECT_EQ(rig.sweeps[0].statistics.lost_scans, 0U);
+  EXPECT_EQ(rig.sweeps[0].lines.back(), 2U);
+  EXPECT_EQ(rig.sweeps[1].statistics.lost_scans, 0U);
 }
 
 TEST(SweepAssembler, cuts_once_where_the_disk_trembles_about_a_whole_turn) {
@@ -235,6 +237,25 @@ TEST(SweepAssembler, does_not_call_it_a_whole_turn_when_the_disk_comes_back) {
   ASSERT_EQ(rig.sweeps.size(), 2U);
   EXPECT_FALSE(rig.sweeps[1].statistics.is_whole_turn);
   EXPECT_NEAR(rig.sweeps[1].statistics.covered_angle_rad, 3.0, 0.1);
+}
+
+TEST(SweepAssembler, stream_that_begins_anew_begins_a_sweep_and_loses_no_scan) {
+  Rig rig(fast_scanner(kTurn_rad));
+  for (drivers::HostStamp at_ns = 0; at_ns < 400 * kMs; at_ns += 5 * kMs) rig.add_angle(at_ns);
+  for (const std::uint64_t n : {3U, 4U, 5U}) rig.assembler.add(rig.scanner.scan(n));
+  for (const std::uint64_t n : {6U, 7U}) {
+    auto scan = rig.scanner.scan(n);
+    scan.sequence += kMaxLostScans + 1;
+    rig.assembler.add(std::move(scan));
+  }
+  rig.assembler.flush();
+  rig.take();
+  ASSERT_EQ(rig.sweeps.size(), 2U);
+  EXPECT_EQ(rig.sweeps[0].statistics.end, SweepEnd::NewStream);
+  EXPECT_EQ(rig.sweeps[0].statistics.scans, 3U);
+  EXPECT_FALSE(rig.sweeps[0].statistics.is_whole_turn);
+  EXPECT_EQ(rig.sweeps[1].statistics.scans, 2U);
+  EXPECT_EQ(rig.sweeps[1].statistics.lost_scans, 0U);
 }
 
 TEST(SweepAssembler, gives_a_sweep_of_a_disk_that_stands) {

@@ -20,7 +20,7 @@ constexpr HostStamp kRestart_ns = 1'000'000'000;
 // Thirty years, so that sums stay far from overflow whatever is sent.
 constexpr HostStamp kLastStamp_ns = 1'000'000'000'000'000'000;
 
-bool is_possible(HostStamp stamp_ns) { return stamp_ns > -kLastStamp_ns && stamp_ns < kLastStamp_ns; }
+bool is_possible(std::int64_t stamp) { return stamp > -kLastStamp_ns && stamp < kLastStamp_ns; }
 
 }  // namespace
 
@@ -34,7 +34,8 @@ void MeasurementStream::take(std::string_view channel, std::span<const std::uint
 
 void MeasurementStream::take(ipc::ScanMessage message) {
   drivers::LaserScan& scan = message.scan;
-  if (!is_possible(scan.first_beam_stamp_ns) || !is_possible(shift_ns_)) return static_cast<void>(++undecodable_);
+  if (!is_possible(scan.first_beam_stamp_ns) || !is_possible(message.utime_us) || !is_possible(shift_ns_))
+    return static_cast<void>(++undecodable_);
   follow(scan.first_beam_stamp_ns, newest_scan_ns_);
   scan.first_beam_stamp_ns += shift_ns_;
   offset_us_ = message.utime_us - scan.first_beam_stamp_ns / 1000;
@@ -53,7 +54,8 @@ void MeasurementStream::take(ipc::AnglesMessage message) {
   has_angles_ = true;
   if (message.samples.empty()) return;
   const auto is_sample_possible = [](const drivers::AngleSample& sample) { return is_possible(sample.stamp_ns); };
-  if (!std::ranges::all_of(message.samples, is_sample_possible) || !is_possible(shift_ns_))
+  const bool is_all_possible = std::ranges::all_of(message.samples, is_sample_possible);
+  if (!is_all_possible || !is_possible(message.utime_us) || !is_possible(shift_ns_))
     return static_cast<void>(++undecodable_);
   follow(message.samples.front().stamp_ns, newest_angle_ns_);
   for (drivers::AngleSample& sample : message.samples) sample.stamp_ns += shift_ns_;

@@ -8,6 +8,7 @@ std::span<const Verb> verbs() {
   static constexpr Verb kVerbs[] = {
       {"detect", "find the stairways in clouds, recordings and simulated scenes", declare_detect},
       {"monitor", "show what stairwayd reports, live", declare_monitor},
+      {"command", "tell a running stairwayd to start, stop, make one sweep or change its speed", declare_command},
       {"simulate", "write the cloud that the robot would assemble in a scene", declare_simulate},
       {"record", "record what stairwayd sends", declare_record},
       {"replay", "send a recording again, in its time", declare_replay},

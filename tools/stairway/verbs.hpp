@@ -26,6 +26,7 @@ struct Verb {
   Action (*declare)(CLI::App& command);  ///< adds the verb's options and its examples to `command`
 };
 
+Action declare_command(CLI::App& command);
 Action declare_config(CLI::App& command);
 Action declare_convert(CLI::App& command);
 Action declare_detect(CLI::App& command);

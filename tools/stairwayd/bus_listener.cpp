@@ -6,12 +6,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <utility>
 
 #include "ipc/lcm_bus.hpp"
 #include "tools/stairwayd/log.hpp"
+#include "tools/stairwayd/pause.hpp"
 #include "tools/stairwayd/this_thread.hpp"
 
 namespace stairway::daemon {
@@ -23,13 +22,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds kFirstPause = 500ms;
 constexpr milliseconds kLongestPause = 5000ms;
 constexpr milliseconds kWait = 100ms;  // how late a stop is noticed
-
-void pause(const std::stop_token& stop, milliseconds duration) {
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  never.wait_for(lock, stop, duration, [] { return false; });
-}
 
 }  // namespace
 
@@ -43,7 +35,7 @@ void BusListener::run(const std::stop_token& stop) {
   name_this_thread("listener");
   for (milliseconds wait = kFirstPause; !stop.stop_requested(); wait = std::min(2 * wait, kLongestPause)) {
     listen(stop);
-    pause(stop, wait);
+    pause_until(std::chrono::steady_clock::now() + wait, stop);
   }
 }
 

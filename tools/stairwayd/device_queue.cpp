@@ -17,7 +17,8 @@ bool holds(const DeviceNews& news) {
 bool is_measurement(const DeviceNews& news) {
   return holds<drivers::LaserScan, drivers::ScipEvent>(news) ||
          holds<drivers::DriveFeedback, drivers::MotorEvent>(news) ||
-         holds<std::vector<drivers::AngleSample>, drivers::EncoderEvent>(news);
+         holds<std::vector<drivers::AngleSample>, drivers::EncoderEvent>(news) ||
+         std::holds_alternative<RawBytes>(news.what);
 }
 
 }  // namespace

@@ -13,13 +13,14 @@
 #include "drivers/encoder/encoder_events.hpp"
 #include "drivers/scip/clock_mapping.hpp"
 #include "drivers/scip/scip_events.hpp"
+#include "tools/stairwayd/measurement_source.hpp"
 
 namespace stairway::daemon {
 
 /// What a device's thread has to say.
 struct DeviceNews {
   drivers::HostStamp stamp_ns = 0;  ///< when it was said [ns]
-  std::variant<drivers::ScipEvent, drivers::MotorEvent, drivers::EncoderEvent, drivers::ClockQuality> what;
+  std::variant<drivers::ScipEvent, drivers::MotorEvent, drivers::EncoderEvent, drivers::ClockQuality, RawBytes> what;
 };
 
 /// Hands the devices' news to the one thread that takes them, in the order in which they were pushed. When it is too

@@ -15,6 +15,9 @@ using drivers::HostStamp;
 // A trouble that comes so shortly before a device fails is why it failed.
 constexpr HostStamp kCauseAge_ns = 2'000'000'000;
 
+// Tells a pause from lost scans: what comes after it is no part of the sweep before.
+constexpr std::uint64_t kNewStream = scan::kMaxLostScans + 1;
+
 template <class... Visitors>
 struct Overloaded : Visitors... {
   using Visitors::operator()...;
@@ -53,7 +56,9 @@ const char* to_string(Device device) {
 }
 
 DeviceWatch::DeviceWatch(const config::Settings& settings)
-    : disk_(settings.disk), supervisor_(settings.disk, units(settings)) {
+    : disk_(settings.disk),
+      supervisor_(settings.disk, units(settings)),
+      is_turning_(settings.disk.mode != drivers::DiskMode::Idle) {
   line(Device::Disk) = {Condition::Good, to_string(drivers::DiskState::Resting), {}, {}, 0};
   for (const Device device : kDevices) {
     if (device == Device::Encoder && disk_.angle_source == drivers::AngleSource::Drive) continue;
@@ -65,6 +70,8 @@ void DeviceWatch::take(drivers::ScipEvent event, HostStamp now_ns) {
   std::visit(Overloaded{
                  [&](drivers::LaserScan& scan) {
                    sign(Device::Scanner, 1);
+                   if (!is_turning_) return;
+                   scan.sequence += sequence_shift_;
                    events_.emplace_back(std::move(scan));
                  },
                  [&](const drivers::ScipDeviceInfo& device) {
@@ -106,7 +113,8 @@ void DeviceWatch::take(drivers::MotorEvent event, HostStamp now_ns) {
                  [&](const drivers::MotorStateEvent& change) {
                    is_drive_running_ = change.state == drivers::MotorState::Running;
                    supervisor_.on_motor(change.state, now_ns);
-                   set(Device::Motor, is_drive_running_, to_string(change.state), now_ns);
+                   const bool is_off = !is_turning_ && change.state == drivers::MotorState::Stopped;
+                   set(Device::Motor, is_drive_running_ || is_off, to_string(change.state), now_ns);
                  },
              },
              event);
@@ -128,6 +136,12 @@ void DeviceWatch::take(drivers::EncoderEvent event, HostStamp now_ns) {
                  },
              },
              event);
+}
+
+void DeviceWatch::order(const DiskOrder& order, HostStamp now_ns) {
+  supervisor_.order(order.is_turning, order.speed_rad_s, now_ns);
+  if (is_turning_ && !order.is_turning) sequence_shift_ += kNewStream;
+  is_turning_ = order.is_turning;
 }
 
 void DeviceWatch::pass_time(HostStamp now_ns) {

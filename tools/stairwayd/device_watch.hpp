@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,15 +31,21 @@ class DeviceWatch {
   void take(drivers::MotorEvent event, drivers::HostStamp now_ns);
   void take(drivers::EncoderEvent event, drivers::HostStamp now_ns);
   void take(const drivers::ClockQuality& quality) { events_.emplace_back(quality); }
+  void take(RawBytes bytes) { events_.emplace_back(std::move(bytes)); }
 
   /// Lets time pass; call it after every batch of events and at least ten times a second.
   void pass_time(drivers::HostStamp now_ns);
+
+  /// From now on. Scans of a disk that shall rest are left out.
+  void order(const DiskOrder& order, drivers::HostStamp now_ns);
 
   /// What came of it, in order.
   std::vector<SourceEvent> take_events();
 
   /// For the motor [rad/s].
   double wanted_speed_rad_s() const { return supervisor_.wanted_speed_rad_s(); }
+  /// Whether the motor shall be on.
+  bool is_motor_wanted() const { return is_turning_; }
 
  private:
   struct Line {
@@ -58,6 +65,8 @@ class DeviceWatch {
 
   drivers::DiskOptions disk_;
   drivers::DiskSupervisor supervisor_;
+  bool is_turning_;
+  std::uint64_t sequence_shift_ = 0;
   bool is_drive_running_ = false;
   std::array<Line, kDevices.size()> lines_;
   std::array<std::size_t, kDevices.size()> signs_{};  // data since the events were taken

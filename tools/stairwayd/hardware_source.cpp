@@ -13,6 +13,8 @@
 #include "drivers/host_clock.hpp"
 #include "drivers/utm30lx.hpp"
 #include "tools/stairwayd/log.hpp"
+#include "tools/stairwayd/motor_rest.hpp"
+#include "tools/stairwayd/raw_tap.hpp"
 #include "tools/stairwayd/sync_pulse_reader.hpp"
 #include "tools/stairwayd/this_thread.hpp"
 
@@ -43,7 +45,8 @@ HardwareSource::HardwareSource(const config::Settings& settings, DevicePorts por
       now_ns_(std::move(ports.now_ns)),
       utime_us_(std::move(utime_us)),
       queue_(kWaitingNews),
-      watch_(settings) {
+      watch_(settings),
+      is_motor_wanted_(watch_.is_motor_wanted()) {
   if (settings_.disk.angle_source == drivers::AngleSource::Encoder) {
     encoder_ = std::jthread([this, opener = std::move(ports.encoder)](std::stop_token stop) mutable {
       run_encoder(std::move(stop), std::move(opener));
@@ -64,8 +67,9 @@ std::vector<SourceEvent> HardwareSource::read(std::chrono::milliseconds timeout)
   for (DeviceNews& news : queue_.take(timeout)) {
     std::visit(
         [&](auto& event) {
-          if constexpr (std::is_same_v<decltype(event), drivers::ClockQuality&>) {
-            watch_.take(event);
+          if constexpr (std::is_same_v<decltype(event), drivers::ClockQuality&> ||
+                        std::is_same_v<decltype(event), RawBytes&>) {
+            watch_.take(std::move(event));
           } else {
             watch_.take(std::move(event), news.stamp_ns);
           }
@@ -81,6 +85,13 @@ std::vector<SourceEvent> HardwareSource::read(std::chrono::milliseconds timeout)
   return events;
 }
 
+std::string HardwareSource::order(const DiskOrder& order) {
+  watch_.order(order, now_ns_());
+  is_motor_wanted_ = watch_.is_motor_wanted();
+  wanted_speed_rad_s_ = watch_.wanted_speed_rad_s();
+  return {};
+}
+
 void HardwareSource::stop() {
   for (std::jthread* thread : {&motor_, &scanner_, &encoder_}) {
     if (!thread->joinable()) continue;
@@ -92,6 +103,11 @@ void HardwareSource::stop() {
 void HardwareSource::run_scanner(std::stop_token stop, drivers::PortOpener<drivers::BytePort> opener,
                                  std::optional<drivers::PortOpener<drivers::EdgePort>> sync) {
   name_this_thread("scanner");
+  if (is_raw_wanted(settings_)) {
+    opener = with_raw_tap(std::move(opener), now_ns_, [this](RawBytes bytes) {
+      queue_.push({bytes.stamp_ns, std::move(bytes)});
+    });
+  }
   drivers::Utm30lx* told = nullptr;
   if (sync) {
     const auto tell = [&told](HostStamp pulse_ns) { told->on_sync_pulse(pulse_ns); };
@@ -113,7 +129,9 @@ void HardwareSource::run_scanner(std::stop_token stop, drivers::PortOpener<drive
 void HardwareSource::run_motor(std::stop_token stop, drivers::PortOpener<drivers::CanPort> opener) {
   name_this_thread("motor");
   drivers::DiskMotor motor(std::move(opener), now_ns_, settings_.motor);
+  MotorRest rest;
   while (!stop.stop_requested()) {
+    rest.follow(is_motor_wanted_, motor);
     motor.set_speed(wanted_speed_rad_s_);
     push(motor.poll(kMotorPoll));
   }

@@ -46,6 +46,7 @@ class HardwareSource final : public MeasurementSource {
   ~HardwareSource() override;
 
   std::vector<SourceEvent> read(std::chrono::milliseconds timeout) override;
+  std::string order(const DiskOrder& order) override;
   void stop() override;
   std::int64_t utime_us(drivers::HostStamp stamp_ns) const override { return utime_us_(stamp_ns); }
 
@@ -63,6 +64,7 @@ class HardwareSource final : public MeasurementSource {
   DeviceQueue queue_;
   DeviceWatch watch_;
   std::atomic<double> wanted_speed_rad_s_ = 0.0;
+  std::atomic<bool> is_motor_wanted_;
 
   // The motor's ends first.
   std::jthread encoder_;

@@ -63,6 +63,11 @@ void HealthBook::note(const SourceSign& sign, Clock::time_point now) {
   entry.signs += sign.count;
 }
 
+void HealthBook::note(drivers::DiskMode mode) {
+  const std::lock_guard lock(mutex_);
+  mode_ = mode;
+}
+
 void HealthBook::note_stop() {
   const std::lock_guard lock(mutex_);
   is_stopped_ = true;
@@ -185,23 +190,21 @@ std::vector<HealthBook::Finding> HealthBook::findings() const {
 std::vector<HealthBook::Finding> HealthBook::measurement_findings() const {
   if (is_stopped_) return {{"stopped", "stopped"}};
   if (devices_.empty()) return {{"starting", "starting"}};
-  if (auto found = device_findings(); !found.empty()) return found;
+  if (auto failed = device_findings(Condition::Failed); !failed.empty()) return failed;
+  if (mode_ == drivers::DiskMode::Idle) return {{"idle: the disk rests until a command", {}}};
+  if (auto starting = device_findings(Condition::Starting); !starting.empty()) return starting;
   if (scans_ == 0) return {{"no scans arrive", "no-scans"}};
   if (angles_ == 0) return {{"no disk angles arrive", "no-angles"}};
   if (!is_angle_valid_) return {{"waiting for the disk's index", "no-index"}};
   return {{"scanning", {}}};
 }
 
-// Every device that has failed, else every one that is not ready yet.
-std::vector<HealthBook::Finding> HealthBook::device_findings() const {
+std::vector<HealthBook::Finding> HealthBook::device_findings(Condition condition) const {
   std::vector<Finding> found;
-  for (const Condition condition : {Condition::Failed, Condition::Starting}) {
-    for (const auto& [device, entry] : devices_) {
-      if (entry.condition != condition) continue;
-      found.push_back({fmt::format("{}: {}", to_string(device), entry.text),
-                       reason_code(fmt::format("{}: {}", to_string(device), entry.reason))});
-    }
-    if (!found.empty()) break;
+  for (const auto& [device, entry] : devices_) {
+    if (entry.condition != condition) continue;
+    found.push_back({fmt::format("{}: {}", to_string(device), entry.text),
+                     reason_code(fmt::format("{}: {}", to_string(device), entry.reason))});
   }
   return found;
 }

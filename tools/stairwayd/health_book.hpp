@@ -32,6 +32,7 @@ class HealthBook {
   void note(const drivers::ClockQuality& quality);
   /// A device gave data.
   void note(const SourceSign& sign, Clock::time_point now);
+  void note(drivers::DiskMode mode);
   void note_stop();
   void note(const ipc::RecorderStatus& recording);
   void note_scan(const drivers::LaserScan& scan);
@@ -68,7 +69,7 @@ class HealthBook {
   };
   std::vector<Finding> findings() const;
   std::vector<Finding> measurement_findings() const;
-  std::vector<Finding> device_findings() const;
+  std::vector<Finding> device_findings(Condition condition) const;
   ipc::DeviceHealth device_health(Device device, const DeviceEntry& entry, Clock::time_point now,
                                   double elapsed_s) const;
   ipc::ResultHealth result_health(Clock::time_point now) const;
@@ -78,6 +79,7 @@ class HealthBook {
   std::map<Device, DeviceEntry> devices_;  // those that were told of
   std::optional<drivers::ClockQuality> clock_;
   bool is_stopped_ = false;
+  drivers::DiskMode mode_ = drivers::DiskMode::Continuous;
   std::string recording_trouble_;
   std::string bus_trouble_;
   StageStatistics stages_;

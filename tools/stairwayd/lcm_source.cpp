@@ -48,7 +48,7 @@ void LcmSource::take(const Message& message, std::vector<SourceEvent>& events) {
   for (Line& line : lines_) {
     if (line.channel != message.channel) continue;
     line.last = Clock::now();
-    events.emplace_back(SourceSign{line.device});
+    events.emplace_back(SourceSign{line.device, 1});
   }
 }
 
@@ -63,7 +63,8 @@ void LcmSource::tell(Line& line, Condition condition, std::string text, std::vec
   if (std::exchange(line.told, condition) == condition) return;
   if (condition == Condition::Failed)
     events.emplace_back(SourceTrouble{line.device, fmt::format("{}: silence", to_string(line.device)), text});
-  events.emplace_back(SourceState{line.device, condition, std::move(text), 0});
+  const char* reason = condition == Condition::Good ? "" : condition == Condition::Failed ? "silence" : "starting";
+  events.emplace_back(SourceState{line.device, condition, std::move(text), 0, reason});
 }
 
 void LcmSource::report_damage(std::vector<SourceEvent>& events) {

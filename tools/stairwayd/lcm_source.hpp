@@ -30,6 +30,9 @@ class LcmSource final : public MeasurementSource {
   explicit LcmSource(const ipc::BusOptions& bus);
 
   std::vector<SourceEvent> read(std::chrono::milliseconds timeout) override;
+  std::string order(const DiskOrder&) override {
+    return "this daemon listens to another process, which has the disk: the command is for that one";
+  }
   void stop() override { listener_.reset(); }
   std::int64_t utime_us(drivers::HostStamp stamp_ns) const override { return stream_.utime_us(stamp_ns); }
 

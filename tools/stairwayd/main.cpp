@@ -25,6 +25,7 @@
 #include "tools/recording/recorded_measurements.hpp"
 #include "tools/recording/recorded_settings.hpp"
 #include "tools/sim/scene_file.hpp"
+#include "tools/stairwayd/bus_listener.hpp"
 #include "tools/stairwayd/command_line.hpp"
 #include "tools/stairwayd/hardware_source.hpp"
 #include "tools/stairwayd/lcm_source.hpp"
@@ -93,6 +94,20 @@ void note_recording(const ipc::Recorder* recorder, daemon::Pipeline& pipeline) {
   pipeline.note_recording(status);
 }
 
+/// Null where nobody can send a command.
+std::unique_ptr<daemon::BusListener> listen_for_commands(const config::Settings& settings, daemon::Pipeline& pipeline) {
+  const std::string& url = settings.lcm.url;
+  const bool is_network = url.starts_with("udpm://") || url.starts_with("tcpq://");
+  if (!settings.command.listen || !is_network) return nullptr;
+  const std::vector channels{ipc::Channels(settings.lcm.channel_prefix).command};
+  return std::make_unique<daemon::BusListener>(url, channels, [&pipeline](const ipc::BusMessage& message) {
+    auto command = ipc::decode<ipc::CommandMessage>(message.bytes);
+    if (command) return pipeline.command(*command);
+    daemon::log::repeated_warning("damaged command", fmt::format("a message on {} is no command: {}", message.channel,
+                                                                 to_string(command.error())));
+  });
+}
+
 void reload(const CommandLine& line, daemon::LiveSettings& live, daemon::Pipeline& pipeline) {
   const auto loaded = config::load_settings(settings_sources(line));
   if (!loaded) return daemon::log::error(fmt::format("settings kept: {}", loaded.error().text));
@@ -124,6 +139,7 @@ int run(const CommandLine& line, const config::Settings& settings, const daemon:
   };
   daemon::log::info(fmt::format("stairwayd {} starts", STAIRWAY_VERSION));
   daemon::Pipeline pipeline(settings, std::move(source), publish, on_pass);
+  const auto command_listener = listen_for_commands(settings, pipeline);
   // Ready means that messages go out; a boot should not wait for a scanner.
   notifier.send("READY=1");
 

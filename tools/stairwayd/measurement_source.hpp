@@ -59,9 +59,23 @@ struct SourceNote {
   std::string text;
 };
 
+/// Bytes that went between this computer and a device.
+struct RawBytes {
+  Device device = Device::Scanner;
+  bool is_sent = false;             ///< by this computer; else received
+  drivers::HostStamp stamp_ns = 0;  ///< the first byte came, or the last was sent
+  std::string bytes;
+};
+
 /// What a source tells. Angle samples come in the order of their stamps, and scans likewise.
 using SourceEvent = std::variant<drivers::LaserScan, std::vector<drivers::AngleSample>, SourceState, SourceTrouble,
-                                 SourceSign, SourceNote, drivers::ClockQuality>;
+                                 SourceSign, SourceNote, RawBytes, drivers::ClockQuality>;
+
+/// What the disk shall do.
+struct DiskOrder {
+  bool is_turning = true;    ///< false: it stops, the motor is switched off, and nothing is measured
+  double speed_rad_s = 0.0;  ///< when it turns, positive counter-clockwise seen from above [rad/s], not 0
+};
 
 /// Where measurements come from: devices, the simulation, a recording. Used by one thread.
 ///
@@ -72,6 +86,10 @@ class MeasurementSource {
 
   /// Waits at most `timeout` of real time for something to happen and gives what happened, in order; often nothing.
   virtual std::vector<SourceEvent> read(std::chrono::milliseconds timeout) = 0;
+
+  /// From the next read() on. Until the first order the disk does what the settings say.
+  /// @return For a person: why there is no disk to give orders to; empty when it obeys.
+  virtual std::string order(const DiskOrder& order) = 0;
 
   /// Stops the motor, then scanning; waits for the disk to stand, at most about 9 s. Nothing is read afterwards.
   /// Stopping twice is stopping once.

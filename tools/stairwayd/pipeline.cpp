@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <utility>
 
 #include "config/settings_table.hpp"
@@ -22,7 +21,6 @@ constexpr auto kReadTimeout = 100ms;
 constexpr auto kSettingsInterval = 10s;
 constexpr auto kDetectorGrace = 500ms;
 constexpr std::size_t kWaitingSweeps = 1;
-constexpr double kWholeTurn_rad = 0.99 * 2.0 * std::numbers::pi;
 
 // Leaves a pass whose answer nobody will want; the detector itself cannot be interrupted.
 struct PassAbandoned {};
@@ -46,19 +44,30 @@ Pipeline::Pipeline(const config::Settings& settings, std::unique_ptr<Measurement
           channels_,
           [this](const std::string& channel, std::span<const std::uint8_t> bytes) { return send(channel, bytes); },
           [this](drivers::HostStamp stamp_ns) { return source_->utime_us(stamp_ns); }),
+      commands_(settings),
       assembler_(scan::make_calibration(settings.mount), settings.sweep),
       sweeps_(kWaitingSweeps),
+      clouds_(make_cloud_sender()),
       next_settings_(Clock::now()),
       detection_([this](std::stop_token stop) { detect(stop); }),
       acquisition_([this](std::stop_token stop) { acquire(stop); }) {}
 
 Pipeline::~Pipeline() { stop(); }
 
+std::unique_ptr<CloudSender> Pipeline::make_cloud_sender() {
+  if (!settings_.cloud.send) return nullptr;
+  const auto publish = [this](const std::string& channel, std::span<const std::uint8_t> bytes) {
+    return send(channel, bytes);
+  };
+  return std::make_unique<CloudSender>(settings_.cloud, channels_.cloud, publish);
+}
+
 bool Pipeline::stop() {
   detection_.request_stop();
   acquisition_.request_stop();
   if (!acquisition_.joinable()) return !detection_.joinable();
   acquisition_.join();
+  if (clouds_) clouds_->stop();
   health_.note_stop();
   send(channels_.health, ipc::encode(health_.report(Clock::now(), utime_now_us())));
   if (!detection_ended_.try_acquire_for(kDetectorGrace)) return false;
@@ -69,12 +78,16 @@ bool Pipeline::stop() {
 void Pipeline::acquire(std::stop_token stop) {
   name_this_thread("acquisition");
   while (!stop.stop_requested() && !source_->has_ended()) {
+    obey_commands();
     Clock::duration spent{0};
     for (SourceEvent& event : source_->read(kReadTimeout)) {
       const Clock::time_point began = Clock::now();
       std::visit([this](auto& what) { take(std::move(what)); }, event);
       spent += Clock::now() - began;
-      while (auto sweep = assembler_.take_sweep()) hand_over(std::move(*sweep), stop);
+      while (auto sweep = assembler_.take_sweep()) {
+        commands_.note_sweep(*sweep, *source_);
+        hand_over(std::move(*sweep), stop);
+      }
     }
     if (spent > Clock::duration::zero()) health_.note_stage("acquisition", spent);
     progress_.note_read();
@@ -82,6 +95,20 @@ void Pipeline::acquire(std::stop_token stop) {
   source_->stop();
   sweeps_.close();
   progress_.note_waiting(true);
+}
+
+void Pipeline::obey_commands() {
+  for (const ipc::CommandAckMessage& ack : commands_.obey(*source_, utime_now_us())) {
+    const bool is_accepted = ack.result == ipc::CommandResult::Accepted;
+    is_accepted ? log::info("command accepted: " + ack.text)
+                : log::repeated_warning("command", "command refused: " + ack.text);
+    send(channels_.command_ack, ipc::encode(ack));
+  }
+  health_.note(commands_.mode());
+}
+
+void Pipeline::command(ipc::CommandMessage command) {
+  if (!commands_.receive(std::move(command))) health_.count("commands-dropped");
 }
 
 void Pipeline::take(drivers::LaserScan scan) {
@@ -107,6 +134,12 @@ void Pipeline::take(const SourceState& state) {
 void Pipeline::take(const SourceSign& sign) { health_.note(sign, Clock::now()); }
 
 void Pipeline::take(const SourceNote& note) { log::info(note.text); }
+
+void Pipeline::take(RawBytes raw) {
+  const ipc::RawMessage message{source_->utime_us(raw.stamp_ns), raw.stamp_ns, to_string(raw.device), raw.is_sent,
+                                std::move(raw.bytes)};
+  send(channels_.raw, ipc::encode(message));
+}
 
 void Pipeline::take(const drivers::ClockQuality& quality) { health_.note(quality); }
 
@@ -138,7 +171,7 @@ void Pipeline::detect(std::stop_token stop) {
     health_.note_stage("waiting", Clock::now() - job->queued);
     progress_.begin_pass(Clock::now());
     try {
-      Pass pass = answer(std::move(*job), stop);
+      Pass pass = answer(*job, stop);
       health_.note_answer(pass.message, pass.timings, Clock::now());
       pass.is_sent = send(channels_.stairways, ipc::encode(pass.message));
       if (on_pass_) on_pass_(pass);
@@ -146,12 +179,23 @@ void Pipeline::detect(std::stop_token stop) {
       break;
     }
     progress_.end_pass();
+    send_cloud(std::move(*job), stop);
   }
+  if (clouds_ && !stop.stop_requested()) clouds_->finish(stop);
   has_ended_ = !stop.stop_requested();
   detection_ended_.release();
 }
 
-Pass Pipeline::answer(Job job, std::stop_token stop) {
+void Pipeline::send_cloud(Job job, std::stop_token stop) {
+  if (!clouds_ || (source_->waits_for_detector() && !clouds_->wait_for_room(std::move(stop)))) return;
+  const bool has_room = clouds_->send({job.end_utime_us, job.begin_utime_us,
+                                       static_cast<std::int64_t>(job.sweep.number), std::move(job.sweep.cloud.points)});
+  if (has_room) return;
+  health_.count("unsent-clouds");
+  log::repeated_warning("unsent clouds", "cloud.rate_mb_s is too low for the disk's speed; a cloud was left out");
+}
+
+Pass Pipeline::answer(const Job& job, std::stop_token stop) {
   detect::DetectorOptions options;
   {
     const std::lock_guard lock(settings_mutex_);
@@ -168,7 +212,7 @@ Pass Pipeline::answer(Job job, std::stop_token stop) {
   pass.message.utime_us = job.end_utime_us;
   pass.message.sweep_start_utime_us = job.begin_utime_us;
   pass.message.sweep = static_cast<std::int64_t>(job.sweep.number);
-  pass.message.is_final = job.sweep.statistics.covered_angle_rad >= kWholeTurn_rad;
+  pass.message.is_final = job.sweep.statistics.covers_whole_turn();
   pass.message.track_ids = tracker_.follow(pass.message.detection.stairways);
   pass.points = job.sweep.cloud.points.size();
   pass.flaws = job.sweep.statistics.flaws();

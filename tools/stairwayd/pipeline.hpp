@@ -20,6 +20,8 @@
 #include "ipc/recording/recorder.hpp"
 #include "ipc/stairway_json.hpp"
 #include "scan_assembly/sweep_assembler.hpp"
+#include "tools/stairwayd/cloud_sender.hpp"
+#include "tools/stairwayd/command_desk.hpp"
 #include "tools/stairwayd/health_book.hpp"
 #include "tools/stairwayd/measurement_publisher.hpp"
 #include "tools/stairwayd/measurement_source.hpp"
@@ -79,6 +81,9 @@ class Pipeline {
   /// Why messages cannot be sent, empty when they can, for STAIRWAY_HEALTH and whoever reads its text.
   void note_bus(std::string trouble) { health_.note_bus(std::move(trouble)); }
 
+  /// Obeys soon, and answers on STAIRWAY_COMMAND_ACK; from any thread.
+  void command(ipc::CommandMessage command);
+
   /// Stops the source (the motor first, then scanning), leaves the pass under way at its next stage, and sends a last
   /// STAIRWAY_HEALTH. Waits at most about 9 s for the disk to stand, and half a second for the detector.
   /// @return Whether it has ended; a stage cannot be interrupted, and takes seconds for a large cloud.
@@ -97,17 +102,21 @@ class Pipeline {
     Clock::time_point queued;
   };
 
+  std::unique_ptr<CloudSender> make_cloud_sender();
   void acquire(std::stop_token stop);
+  void obey_commands();
   void take(drivers::LaserScan scan);
   void take(const std::vector<drivers::AngleSample>& samples);
   void take(const SourceState& state);
   void take(const SourceTrouble& trouble);
   void take(const SourceSign& sign);
   void take(const SourceNote& note);
+  void take(RawBytes raw);
   void take(const drivers::ClockQuality& quality);
   void hand_over(scan::Sweep sweep, const std::stop_token& stop);
   void detect(std::stop_token stop);
-  Pass answer(Job job, std::stop_token stop);
+  Pass answer(const Job& job, std::stop_token stop);
+  void send_cloud(Job job, std::stop_token stop);
   bool send(const std::string& channel, std::span<const std::uint8_t> bytes);
   bool send_settings();
 
@@ -119,9 +128,12 @@ class Pipeline {
   const ipc::Channels channels_;
   HealthBook health_;
   MeasurementPublisher publisher_;
+  CommandDesk commands_;
   scan::SweepAssembler assembler_;
   NewestQueue<Job> sweeps_;
   StairwayTracker tracker_;
+
+  const std::unique_ptr<CloudSender> clouds_;  // null when they are not wanted
 
   ProgressWatch progress_;
   Clock::time_point next_settings_;

@@ -25,6 +25,7 @@ class ReplaySource final : public MeasurementSource {
                                                                          double speed);
 
   std::vector<SourceEvent> read(std::chrono::milliseconds timeout) override;
+  std::string order(const DiskOrder&) override { return "this daemon plays a recording"; }
   void stop() override {}
   std::int64_t utime_us(drivers::HostStamp stamp_ns) const override { return recording_.utime_us(stamp_ns); }
   bool waits_for_detector() const override { return true; }

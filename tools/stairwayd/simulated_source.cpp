@@ -9,6 +9,7 @@
 
 #include "tools/sim/scene.hpp"
 #include "tools/sim/scene_file.hpp"
+#include "tools/stairwayd/raw_tap.hpp"
 
 namespace stairway::daemon {
 namespace {
@@ -65,17 +66,23 @@ SimulatedSource::SimulatedSource(const config::Settings& settings, std::int64_t 
       watch_(settings) {
   const auto now_ns = [this] { return robot_.now_ns(); };
   if (has_encoder_) encoder_.emplace(robot_.encoder(), now_ns, settings.encoder);
-  scanner_.emplace(robot_.scanner(), now_ns, settings.lidar);
+  auto scanner = robot_.scanner();
+  if (is_raw_wanted(settings))
+    scanner = with_raw_tap(std::move(scanner), now_ns, [this](RawBytes bytes) { watch_.take(std::move(bytes)); });
+  scanner_.emplace(std::move(scanner), now_ns, settings.lidar);
   motor_.emplace(robot_.motor(), now_ns, settings.motor);
 }
 
 std::vector<SourceEvent> SimulatedSource::read(std::chrono::milliseconds timeout) {
   // The simulation's waits are in its own time.
   const std::chrono::duration<double> limit = timeout * speed_;
-  const auto longest = motor_->session().state() == drivers::MotorState::Running ? kLongestStep : kSetUpStep;
+  const drivers::MotorState motor = motor_->session().state();
+  const bool is_settled = motor == drivers::MotorState::Running || motor == drivers::MotorState::Stopped;
+  const auto longest = is_settled ? kLongestStep : kSetUpStep;
   const auto step = std::chrono::ceil<nanoseconds>(speed_ > 0.0 ? std::min(limit, longest) : longest);
   auto scanner_events = scanner_->poll(step);
 
+  motor_rest_.follow(watch_.is_motor_wanted(), *motor_);
   motor_->set_speed(watch_.wanted_speed_rad_s());
   take_all(*motor_, nanoseconds::zero(), robot_, watch_);
   if (encoder_) take_all(*encoder_, nanoseconds::zero(), robot_, watch_);
@@ -88,6 +95,11 @@ std::vector<SourceEvent> SimulatedSource::read(std::chrono::milliseconds timeout
   }
   watch_.pass_time(now_ns);
   return watch_.take_events();
+}
+
+std::string SimulatedSource::order(const DiskOrder& order) {
+  watch_.order(order, robot_.now_ns());
+  return {};
 }
 
 void SimulatedSource::stop() {

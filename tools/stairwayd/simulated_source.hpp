@@ -12,6 +12,7 @@
 #include "tools/sim/simulated_robot.hpp"
 #include "tools/stairwayd/device_watch.hpp"
 #include "tools/stairwayd/measurement_source.hpp"
+#include "tools/stairwayd/motor_rest.hpp"
 
 namespace stairway::daemon {
 
@@ -29,6 +30,7 @@ class SimulatedSource final : public MeasurementSource {
   SimulatedSource(const config::Settings& settings, std::int64_t start_utime_us);
 
   std::vector<SourceEvent> read(std::chrono::milliseconds timeout) override;
+  std::string order(const DiskOrder& order) override;
   void stop() override;
   std::int64_t utime_us(drivers::HostStamp stamp_ns) const override;
   bool waits_for_detector() const override { return speed_ == 0.0; }
@@ -45,6 +47,7 @@ class SimulatedSource final : public MeasurementSource {
   std::optional<drivers::DiskEncoder> encoder_;
   std::optional<drivers::Utm30lx> scanner_;
   std::optional<drivers::DiskMotor> motor_;
+  MotorRest motor_rest_;
   drivers::HostStamp next_clock_report_ns_ = 0;
 };
 

@@ -10,6 +10,7 @@ std::set<std::string> withheld_channels(const config::Settings& settings) {
   const bool is_heard = settings.source.kind == config::SourceKind::Lcm;
   if (is_heard) withheld.insert(channels.disk);
   if (is_heard || !settings.lcm.scans) withheld.insert({channels.scan, channels.angles});
+  if (!settings.lcm.raw) withheld.insert(channels.raw);
   return withheld;
 }
 
