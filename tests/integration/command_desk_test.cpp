@@ -159,6 +159,18 @@ TEST_F(CommandDeskTest, after_a_rest_the_turn_under_way_counts_but_not_what_was_
   EXPECT_EQ(desk.mode(), DiskMode::Idle);
 }
 
+TEST_F(CommandDeskTest, settings_may_ask_for_a_single_sweep_after_the_start) {
+  config::Settings settings;
+  settings.disk.mode = DiskMode::SingleSweep;
+  CommandDesk single(settings);
+  single.note_sweep(sweep(0, 3.0), source);
+  EXPECT_EQ(single.mode(), DiskMode::SingleSweep);
+  single.note_sweep(sweep(1, kTurn_rad), source);
+  EXPECT_EQ(single.mode(), DiskMode::Idle);
+  ASSERT_EQ(source.orders.size(), 1u);
+  EXPECT_FALSE(source.orders.back().is_turning);
+}
+
 TEST_F(CommandDeskTest, sweeps_of_continuous_turning_end_nothing) {
   desk.note_sweep(sweep(0, kTurn_rad), source);
   EXPECT_EQ(desk.mode(), DiskMode::Continuous);

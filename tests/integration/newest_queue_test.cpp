@@ -42,5 +42,13 @@ TEST(NewestQueue, stop_comes_before_waiting_values) {
   EXPECT_EQ(queue.pop(source.get_token()), std::nullopt);
 }
 
+TEST(NewestQueue, wait_with_a_limit_ends_with_or_without_a_value) {
+  NewestQueue<int> queue(1);
+  EXPECT_EQ(queue.pop_within(std::chrono::milliseconds(1)), std::nullopt);
+  queue.push(3);
+  EXPECT_EQ(queue.pop_within(std::chrono::milliseconds(0)), 3);
+  EXPECT_EQ(queue.pop_within(std::chrono::milliseconds(0)), std::nullopt);
+}
+
 }  // namespace
 }  // namespace stairway::daemon

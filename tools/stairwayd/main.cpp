@@ -120,7 +120,6 @@ void reload(const CommandLine& line, daemon::LiveSettings& live, daemon::Pipelin
 
 int run(const CommandLine& line, const config::Settings& settings, const daemon::Signals& signals,
         std::unique_ptr<daemon::MeasurementSource> source) {
-  daemon::log::set_up(settings.log.level);
   const daemon::ServiceNotifier notifier;
   daemon::LiveSettings live(settings);
   daemon::PatientPublisher bus(settings.lcm.url);
@@ -235,6 +234,7 @@ int run(CommandLine line) {
   }
   // Before the hardware: a port may start a thread, and a signal that reaches it would end the process at once.
   const daemon::Signals signals;
+  daemon::log::set_up(settings.log.level);
   try {
     if (!source) source = make_source(settings);
     return run(line, settings, signals, std::move(source));
