@@ -185,9 +185,12 @@ void MotorSession::begin_stop(bool is_quick, HostStamp now_ns) {
 void MotorSession::end_stop() {
   host_heartbeat_due_ns_ = kNever;
   sdo_.cancel(now_ns_);
-  if (!stopping_.is_standing()) {
+  if (!stopping_.is_off()) {
     report(MotorTrouble::StateTimeout,
-           "the drive did not say that the disk stands; without this host's heartbeat it brakes by itself", now_ns_);
+           "the drive did not say that it is off; without this host's heartbeat it brakes by itself", now_ns_);
+  } else if (!stopping_.is_standing()) {
+    report(MotorTrouble::StateTimeout, "the drive is off, but did not say that the disk stands: it may still run out",
+           now_ns_);
   }
   send(encode_nmt(NmtCommand::EnterPreOperational, node_));
   enter(Step::Stopped, kNever);

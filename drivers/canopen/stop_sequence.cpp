@@ -9,6 +9,7 @@ namespace {
 
 constexpr HostStamp kNever = std::numeric_limits<HostStamp>::max();
 constexpr HostStamp kPause_ns = 20'000'000;
+constexpr HostStamp kOffTime_ns = 500'000'000;  // of a drive that closes a brake before it lets go
 
 }  // namespace
 
@@ -63,8 +64,16 @@ bool StopSequence::on_result(SdoClient& sdo, const SdoResult& result, HostStamp 
       pause_end_ns_ = now_ns + kPause_ns;
       return false;
     }
+    case Step::DisableVoltage:
+      off_end_ns_ = now_ns + kOffTime_ns;
+      break;
     case Step::CheckState:
       is_off_ = is_done && drivers::is_off(decode_statusword(static_cast<std::uint16_t>(result.number())));
+      if (is_off_) break;
+      if (now_ns >= off_end_ns_) return true;
+      pause_end_ns_ = now_ns + kPause_ns;
+      return false;
+    case Step::EndWatch:
       return true;
     default:
       break;
@@ -74,7 +83,8 @@ bool StopSequence::on_result(SdoClient& sdo, const SdoResult& result, HostStamp 
 }
 
 void StopSequence::on_time(SdoClient& sdo, HostStamp now_ns) {
-  if (now_ns >= pause_end_ns_) request(sdo, Step::AskState, now_ns);
+  if (now_ns < pause_end_ns_) return;
+  request(sdo, step_ == Step::CheckState ? Step::CheckState : Step::AskState, now_ns);
 }
 
 }  // namespace stairway::drivers

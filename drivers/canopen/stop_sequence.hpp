@@ -12,8 +12,9 @@
 namespace stairway::drivers {
 
 /// Brings the disk to rest and the drive off, from any state, by objects alone: they work before the process data do.
-/// Target 0 (or quick stop), standstill or `stop_timeout_s`, shutdown, disable voltage, no more watch over this host.
-/// A drive that refuses an object is asked for the next one; one that does not answer ends the sequence.
+/// Target 0 (or quick stop), standstill or `stop_timeout_s`, shutdown, disable voltage, and once the drive is off no
+/// more watch over this host: a drive that stays on keeps it and brakes when this host's heartbeat ends. A drive that
+/// refuses an object is asked for the next one; one that does not answer ends the sequence.
 class StopSequence {
  public:
   explicit StopSequence(const MotorOptions& options);
@@ -31,7 +32,7 @@ class StopSequence {
   bool is_off() const { return is_off_; }
 
  private:
-  enum class Step : std::uint8_t { Brake, AskState, AskSpeed, Shutdown, DisableVoltage, EndWatch, CheckState };
+  enum class Step : std::uint8_t { Brake, AskState, AskSpeed, Shutdown, DisableVoltage, CheckState, EndWatch };
 
   void request(SdoClient& sdo, Step step, HostStamp now_ns);
 
@@ -43,6 +44,7 @@ class StopSequence {
   bool is_standing_ = false;
   bool is_off_ = false;
   HostStamp brake_end_ns_ = 0;
+  HostStamp off_end_ns_ = 0;
   HostStamp pause_end_ns_ = std::numeric_limits<HostStamp>::max();
 };
 

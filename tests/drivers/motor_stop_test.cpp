@@ -108,6 +108,18 @@ TEST(MotorStop, a_disk_that_does_not_slow_down_is_switched_off_after_the_time_ou
   EXPECT_EQ(bench.count(MotorTrouble::StateTimeout), 1U);
 }
 
+TEST(MotorStop, a_drive_that_does_not_go_off_keeps_its_watch_over_this_host) {
+  RunningBench bench;
+  bench.drive.faults().is_local = true;
+  bench.session.stop();
+  ASSERT_TRUE(bench.run_until(MotorState::Stopped, 5.0));
+  EXPECT_FALSE(bench.session.has_stopped_safely());
+  EXPECT_EQ(bench.drive.state(), DriveState::Enabled);
+  EXPECT_NE(bench.detail(MotorTrouble::StateTimeout).find("did not say that it is off"), std::string::npos);
+  bench.run(1.0);
+  EXPECT_NE(bench.drive.state(), DriveState::Enabled);
+}
+
 TEST(MotorStop, a_quick_stop_brakes_faster_than_a_stop) {
   const auto braking_time = [](bool is_quick) {
     RunningBench bench;
