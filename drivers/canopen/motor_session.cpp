@@ -95,7 +95,8 @@ std::vector<CanFrame> MotorSession::take_output() {
 }
 
 HostStamp MotorSession::deadline() const {
-  if (request_ != Request::None || step_ == Step::Start) return now_ns_;
+  const bool is_waiting_to_start = request_ == Request::Start && step_ == Step::Stop;
+  if ((request_ != Request::None && !is_waiting_to_start) || step_ == Step::Start) return now_ns_;
   if (step_ == Step::Stopped) return kNever;
   HostStamp due_ns = std::min({step_deadline_ns_, host_heartbeat_due_ns_, sdo_.deadline()});
   if (step_ == Step::Search) due_ns = std::min(due_ns, std::max(probe_ns_, now_ns_ + 1));

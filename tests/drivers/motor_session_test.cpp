@@ -61,6 +61,8 @@ TEST(MotorSession, begins_again_when_asked_to_while_it_stops) {
   bench.run(0.1);
   ASSERT_EQ(bench.session.state(), MotorState::Stopping);
   bench.session.start();
+  bench.poll();
+  EXPECT_GT(bench.session.deadline(), bench.now_ns) << "waiting is no reason to be called without a pause";
   ASSERT_TRUE(bench.run_until(MotorState::Searching, 10.0));
   EXPECT_EQ(bench.drive.disk_speed_rad_s(), 0.0) << "the stop is not cut short";
   EXPECT_TRUE(bench.run_until_speed(0.5, 10.0));
