@@ -111,6 +111,7 @@ TEST(ScipKeyValue, splits_at_the_last_semicolon) {
   const auto entry = parse_key_value(line);
   ASSERT_TRUE(entry);
   EXPECT_EQ(entry->value, "j;o[");
+  EXPECT_EQ(line, "TIME:j;o[;H");
 }
 
 TEST(ScipKeyValue, refuses_lines_of_another_form) {
