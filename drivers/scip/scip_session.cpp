@@ -306,6 +306,7 @@ void ScipSession::prepare_stream() {
 void ScipSession::begin_stream(HostStamp now_ns) {
   good_scans_ = 0;
   wrong_lengths_ = 0;
+  is_self_checking_ = false;
   clock_.begin_stream(device_.parameters);
   enter(Step::Stream, now_ns);
   // The mirror may still be getting up to speed.
@@ -344,9 +345,10 @@ void ScipSession::on_stream_status(std::string_view status, HostStamp now_ns) {
       return;
     case StatusKind::SelfCheck:
       report(ScipTrouble::SelfCheck, detail + ", waiting");
-      deadline_ns_ = std::max(deadline_ns_, now_ns + to_ns(options_.self_check_s));
+      if (!std::exchange(is_self_checking_, true)) deadline_ns_ = now_ns + to_ns(options_.self_check_s);
       return;
     case StatusKind::Resumed:
+      is_self_checking_ = false;
       deadline_ns_ = now_ns + watchdog_ns();
       return;
     case StatusKind::Fault:
@@ -370,6 +372,7 @@ void ScipSession::accept_scan(HostStamp arrival_ns, bool is_arrival_exact, HostS
   for (ScipTroubleEvent& trouble : clock_.take_troubles()) report(trouble.trouble, std::move(trouble.detail));
   events_.emplace_back(std::move(scan));
   ++counters_.scans;
+  is_self_checking_ = false;
   wrong_lengths_ = 0;
   if (++good_scans_ >= kProvenStream) failures_ = 0;
   deadline_ns_ = now_ns + watchdog_ns();

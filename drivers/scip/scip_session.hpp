@@ -126,6 +126,7 @@ class ScipSession {
   bool is_pausing_ = false;            // before BM is sent again
   bool is_reattaching_ = false;        // the sensor was set up before: only its stream is started again
   bool is_intensity_refused_ = false;  // by this sensor, until it is opened again
+  bool is_self_checking_ = false;      // inside the stream, since a scan came last
   int failures_ = 0;                   // in a row
   int wrong_lengths_ = 0;              // in a row
   int good_scans_ = 0;                 // of this stream

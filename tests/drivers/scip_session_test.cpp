@@ -301,6 +301,20 @@ TEST(ScipSession, waits_while_the_sensor_checks_itself) {
   EXPECT_GT(bench.session.counters().scans, scans_before + 30);
 }
 
+TEST(ScipSession, does_not_wait_without_end_for_a_sensor_that_goes_on_checking_itself) {
+  Bench bench;
+  bench.run(2.0);
+  bench.sensor.override_scan = [](int, std::string) { return std::string(); };
+  for (int i = 0; i < 9; ++i) {
+    bench.sensor.add_message(bench.now_ns, encode_reply("MD0000108001000", "21"));
+    bench.run(1.0);
+  }
+  EXPECT_EQ(bench.count(ScipTrouble::Silence), 0U);
+  bench.sensor.add_message(bench.now_ns, encode_reply("MD0000108001000", "21"));
+  bench.run(2.0);
+  EXPECT_GE(bench.count(ScipTrouble::Silence), 1U);
+}
+
 TEST(ScipSession, restarts_the_stream_after_a_hardware_status) {
   Bench bench;
   bench.run(2.0);
