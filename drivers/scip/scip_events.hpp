@@ -34,7 +34,7 @@ enum class ScipTrouble : std::uint8_t {
   ClockReset,     ///< the sensor's counter was set back
   Disconnected,   ///< the port failed or cannot be opened
   LostBytes,      ///< bytes were dropped on the way, because nobody read in time
-  WrongUnit,      ///< a sensor with another serial number than the wanted one
+  WrongUnit,      ///< a sensor with another serial number than the wanted one, or of another model
   OldFirmware,    ///< a firmware with known faults
   TimeUnknown,    ///< the sensor's clock could not be read, or only too slowly
   FutureStamp,    ///< scan after scan arrived before it ended: their time stamps are wrong

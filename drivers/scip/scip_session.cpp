@@ -226,6 +226,7 @@ void ScipSession::on_setup_reply(const ScipReply& reply, HostStamp now_ns) {
   if (step_ == Step::AskState) is_taken = take(parse_state(reply.data), device_.state);
   if (!is_taken) return send_again(now_ns);
   if (step_ == Step::AskVersion && !is_wanted_unit(now_ns)) return;
+  if (step_ == Step::AskParameters) check_model();
 
   if (step_ == Step::ResetAgain) {
     clock_.expect_reset();
@@ -251,6 +252,14 @@ bool ScipSession::is_wanted_unit(HostStamp now_ns) {
     report(ScipTrouble::OldFirmware, warning);
   }
   return true;
+}
+
+void ScipSession::check_model() {
+  const std::string& model = device_.parameters.model;
+  if (model.find("UTM-30LX") != std::string::npos) return;
+  report(ScipTrouble::WrongUnit, "it is a " + model.substr(0, kMaxQuote) +
+                                     ", no UTM-30LX; if there are several scanners, name one in lidar.usb_serial or "
+                                     "lidar.usb_port");
 }
 
 void ScipSession::on_time_mode_reply(std::string_view status, HostStamp now_ns) {

@@ -91,6 +91,7 @@ class ScipSession {
   void on_reply(const ScipReply& reply, HostStamp now_ns);
   void on_setup_reply(const ScipReply& reply, HostStamp now_ns);
   bool is_wanted_unit(HostStamp now_ns);
+  void check_model();
   void on_time_mode_reply(std::string_view status, HostStamp now_ns);
   void on_time_reply(const ScipReply& reply, HostStamp now_ns);
   void give_up_time(HostStamp now_ns);

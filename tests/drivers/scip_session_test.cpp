@@ -137,6 +137,22 @@ TEST(ScipSession, leaves_another_unit_than_the_wanted_one_alone) {
   EXPECT_EQ(bench.session.counters().scans, 0U);
 }
 
+TEST(ScipSession, tells_that_a_scanner_is_of_another_model_and_uses_it) {
+  Bench bench;
+  bench.sensor.override_reply = [](const std::string& command) -> std::optional<std::string> {
+    if (command != "PP") return std::nullopt;
+    std::string lines;
+    append_key_value(lines, "MODL", "URG-04LX(Hokuyo Automatic Co.,Ltd.)");
+    const std::string& usual = samples::kParameters;
+    const std::size_t numbers = usual.find("DMIN");
+    return encode_reply("PP", "00", lines + usual.substr(numbers, usual.size() - numbers - 1));
+  };
+  bench.run(3.0);
+  EXPECT_EQ(bench.count(ScipTrouble::WrongUnit), 1U);
+  EXPECT_NE(bench.all<ScipTroubleEvent>().back().detail.find("URG-04LX"), std::string::npos);
+  EXPECT_EQ(bench.session.state(), ScipState::Streaming);
+}
+
 TEST(ScipSession, takes_the_wanted_unit_however_its_serial_is_written) {
   ScipOptions options;
   options.serial = "H0903971";
