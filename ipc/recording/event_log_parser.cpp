@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kMagicBytes{0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t kShortestEvent = kLogHeaderBytes + 1;
-constexpr std::size_t kLookAhead = 1 << 20;      // how far a successor is looked for
-constexpr std::int64_t kLongestGap = 1'000'000;  // events; beyond it the numbers began anew
+constexpr std::size_t kLookAhead = 1 << 20;       // how far a successor is looked for
+constexpr std::uint64_t kLongestGap = 1'000'000;  // events; beyond it the numbers began anew
 
 bool is_name(std::span<const std::uint8_t> bytes) {
   return std::ranges::all_of(bytes, [](std::uint8_t byte) { return byte >= 0x20 && byte < 0x7f; });
@@ -21,6 +21,13 @@ bool is_name(std::span<const std::uint8_t> bytes) {
 bool begins_with_magic(std::span<const std::uint8_t> bytes) {
   const std::size_t size = std::min(bytes.size(), kMagicBytes.size());
   return std::equal(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size), kMagicBytes.begin());
+}
+
+// How many events are missing between these two numbers, which may be any in a damaged file.
+std::uint64_t events_between(std::int64_t before, std::int64_t after) {
+  if (after <= before) return 0;
+  const std::uint64_t gap = static_cast<std::uint64_t>(after) - static_cast<std::uint64_t>(before) - 1;
+  return gap < kLongestGap ? gap : 0;
 }
 
 }  // namespace
@@ -97,9 +104,7 @@ LogEvent EventLogParser::take(const LogHeader& header) {
     damage_.skipped_bytes += skipped_;
     skipped_ = 0;
   }
-  const std::int64_t gap = last_number_ ? header.number - *last_number_ - 1 : 0;
-  if (last_number_ && header.number > *last_number_ && gap > 0 && gap < kLongestGap)
-    damage_.lost_events += static_cast<std::uint64_t>(gap);
+  damage_.lost_events += last_number_ ? events_between(*last_number_, header.number) : 0;
   last_number_ = header.number;
   return event;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -145,6 +146,20 @@ TEST(EventLog, damaged_head_is_passed_over_and_counted) {
   EXPECT_EQ(parsed.damage.places, 2u);
   EXPECT_EQ(parsed.damage.lost_events, 2u);
   EXPECT_EQ(parsed.damage.skipped_bytes, log.offsets[4] - log.offsets[3] + log.offsets[6] - log.offsets[5]);
+}
+
+TEST(EventLog, numbers_of_any_size_are_no_gap) {
+  Bytes bytes;
+  for (const std::int64_t number : {std::numeric_limits<std::int64_t>::min(), std::int64_t{2},
+                                    std::numeric_limits<std::int64_t>::max(), std::int64_t{-1}})
+    append_log_event(bytes, sample(0).view(number));
+  EventLogParser parser;
+  parser.feed(bytes);
+  parser.end();
+  int events = 0;
+  while (parser.next()) ++events;
+  EXPECT_EQ(events, 4);
+  EXPECT_EQ(parser.damage().lost_events, 0u);
 }
 
 TEST(EventLog, bytes_without_any_event_give_none) {
