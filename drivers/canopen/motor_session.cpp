@@ -321,10 +321,7 @@ void MotorSession::command(std::uint16_t control, std::int32_t target) {
 }
 
 void MotorSession::send_command(HostStamp now_ns) {
-  CanFrame frame{static_cast<std::uint16_t>(cob::kRpdo1 + node_), kCommandPdoBytes, {}};
-  store_little_endian(command_.control, std::span(frame.data).first(2));
-  store_little_endian(static_cast<std::uint32_t>(command_.target), std::span(frame.data).subspan(2, 4));
-  send(frame);
+  send(encode_command(node_, command_));
   is_command_new_ = false;
   command_due_ns_ = now_ns + kCommandRepeat_ns;
 }

@@ -17,6 +17,7 @@
 #include "drivers/canopen/feedback_assembler.hpp"
 #include "drivers/canopen/motor_events.hpp"
 #include "drivers/canopen/motor_options.hpp"
+#include "drivers/canopen/process_data.hpp"
 #include "drivers/canopen/sdo_client.hpp"
 #include "drivers/canopen/setup_sequence.hpp"
 #include "drivers/canopen/stop_sequence.hpp"
@@ -92,11 +93,6 @@ class MotorSession {
     Stopped,
   };
   enum class Request : std::uint8_t { None, Stop, QuickStop, Start };
-  struct Command {
-    std::uint16_t control = controlword::kDisableVoltage;
-    std::int32_t target = 0;
-    bool operator==(const Command&) const = default;
-  };
 
   void enter(Step step, HostStamp deadline_ns);
   void begin_search(HostStamp now_ns);
@@ -166,7 +162,7 @@ class MotorSession {
   std::optional<DriveState> acted_on_;  // the state that the last command answered
   std::optional<Emergency> emergency_;
 
-  Command command_;
+  DriveCommand command_{controlword::kDisableVoltage, 0};
   bool is_command_new_ = false;
   HostStamp command_due_ns_ = 0;
   HostStamp sync_due_ns_ = 0;

@@ -101,14 +101,12 @@ void MotorSession::on_emergency(const CanFrame& frame, HostStamp at_ns) {
 
 void MotorSession::on_status_pdo(const CanFrame& frame, HostStamp at_ns) {
   if (!is_operational()) return;
-  if (frame.length < kStatusPdoBytes) {
-    return report(MotorTrouble::Unexpected, to_string(frame) + ": shorter than it was mapped", at_ns);
-  }
-  status_ = static_cast<std::uint16_t>(load_little_endian(frame.data, 2));
+  const auto told = decode_status(frame);
+  if (!told) return report(MotorTrouble::Unexpected, to_string(frame) + ": shorter than it was mapped", at_ns);
+  status_ = told->status;
   status_ns_ = at_ns;
   drive_state_ = decode_statusword(status_);
-  assembler_.on_status(status_, static_cast<std::int32_t>(load_little_endian(std::span(frame.data).subspan(2), 4)),
-                       at_ns);
+  assembler_.on_status(status_, told->velocity, at_ns);
   give_feedback();
   if (is_fault(drive_state_) && (step_ == Step::Enable || step_ == Step::Run)) return begin_fault(at_ns);
   if (step_ == Step::Enable) return step_enable(at_ns);
@@ -118,10 +116,9 @@ void MotorSession::on_status_pdo(const CanFrame& frame, HostStamp at_ns) {
 
 void MotorSession::on_position_pdo(const CanFrame& frame, HostStamp at_ns) {
   if (!is_operational()) return;
-  if (frame.length < kPositionPdoBytes) {
-    return report(MotorTrouble::Unexpected, to_string(frame) + ": shorter than it was mapped", at_ns);
-  }
-  assembler_.on_position(static_cast<std::int32_t>(load_little_endian(frame.data, 4)), at_ns);
+  const auto position = decode_position(frame);
+  if (!position) return report(MotorTrouble::Unexpected, to_string(frame) + ": shorter than it was mapped", at_ns);
+  assembler_.on_position(*position, at_ns);
   give_feedback();
 }
 

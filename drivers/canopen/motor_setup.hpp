@@ -20,10 +20,6 @@ struct SetupStep {
   const char* without = nullptr;
 };
 
-inline constexpr std::size_t kStatusPdoBytes = 6;    ///< TPDO 1: statusword (2), actual velocity (4)
-inline constexpr std::size_t kPositionPdoBytes = 4;  ///< TPDO 2: actual position
-inline constexpr std::size_t kCommandPdoBytes = 6;   ///< RPDO 1: controlword (2), target velocity (4)
-
 /// The process data of the disk: RPDO 1 on its own, TPDO 1 and 2 at every SYNC.
 std::vector<PdoMap> motor_pdo_maps(std::uint8_t node);
 

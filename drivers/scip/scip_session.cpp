@@ -207,6 +207,10 @@ void ScipSession::on_reply(const ScipReply& reply, HostStamp now_ns) {
       if (!is_unknown_command(reply.status)) break;
       report_refusal(reply.status);
       if (step_ == Step::AskParameters) device_.parameters = {};
+      if (step_ == Step::AskVersion) {
+        device_.version = {};
+        if (!is_wanted_unit(now_ns)) return;
+      }
       return advance(now_ns);
   }
   report_refusal(reply.status);
@@ -242,8 +246,9 @@ void ScipSession::on_setup_reply(const ScipReply& reply, HostStamp now_ns) {
 bool ScipSession::is_wanted_unit(HostStamp now_ns) {
   const VersionInfo& unit = device_.version;
   if (!options_.serial.empty() && !is_same_serial(unit.serial, options_.serial)) {
-    report(ScipTrouble::WrongUnit, "its serial number is " + unit.serial.substr(0, kMaxQuote) + ", wanted is " +
-                                       options_.serial.substr(0, kMaxQuote));
+    const std::string told = unit.serial.empty() ? "not told" : unit.serial.substr(0, kMaxQuote);
+    report(ScipTrouble::WrongUnit,
+           "its serial number is " + told + ", wanted is " + options_.serial.substr(0, kMaxQuote));
     ++failures_;
     back_off(now_ns, true);
     return false;

@@ -13,6 +13,7 @@
 #include "drivers/canopen/cia402.hpp"
 #include "drivers/canopen/motor_setup.hpp"
 #include "drivers/canopen/pdo_map.hpp"
+#include "drivers/canopen/process_data.hpp"
 #include "drivers/canopen/sdo_frames.hpp"
 #include "tests/drivers/can_text.hpp"
 
@@ -43,6 +44,29 @@ TEST(CanopenFrames, heartbeats_name_a_state_or_nothing) {
       {"701#", std::nullopt},        {"701#0500", std::nullopt},
   };
   for (const auto& [text, state] : cases) EXPECT_EQ(decode_heartbeat(frame_of(text)), state) << text;
+}
+
+TEST(CanopenFrames, commands_to_the_drive_and_what_it_tells) {
+  EXPECT_EQ(to_string(encode_command(1, {0x000f, 60000})), "201#0F0060EA0000");
+  EXPECT_EQ(to_string(encode_command(127, {0x0006, -1})), "27F#0600FFFFFFFF");
+  const std::pair<const char*, DriveStatus> cases[] = {
+      {"181#370656EA0000", {0x0637, 59990}},
+      {"181#3706AA15FFFF", {0x0637, -59990}},
+      {"181#5002000000800000", {0x0250, std::numeric_limits<std::int32_t>::min()}},
+  };
+  for (const auto& [text, status] : cases) EXPECT_EQ(decode_status(frame_of(text)), status) << text;
+  EXPECT_FALSE(decode_status(frame_of("181#370656EA00")));
+  EXPECT_EQ(decode_position(frame_of("281#FEFFFFFF")), -2);
+  EXPECT_FALSE(decode_position(frame_of("281#FEFFFF")));
+}
+
+TEST(CanopenFrames, every_byte_of_what_the_drive_tells_counts) {
+  const CanFrame frame = frame_of("181#370656EA0000");
+  for (std::size_t i = 0; i < frame.length; ++i) {
+    CanFrame changed = frame;
+    changed.data[i] ^= 0xff;
+    EXPECT_NE(decode_status(changed), decode_status(frame)) << i;
+  }
 }
 
 TEST(CanopenFrames, emergencies_both_ways_with_their_meaning) {

@@ -137,6 +137,20 @@ TEST(ScipSession, leaves_another_unit_than_the_wanted_one_alone) {
   EXPECT_EQ(bench.session.counters().scans, 0U);
 }
 
+TEST(ScipSession, leaves_a_unit_alone_that_does_not_tell_the_wanted_serial_number) {
+  ScipOptions options;
+  options.serial = "H0903972";
+  Bench bench(options);
+  bench.sensor.override_reply = [](const std::string& command) -> std::optional<std::string> {
+    if (command == "VV") return encode_reply("VV", "0E");
+    return std::nullopt;
+  };
+  bench.run(30.0);
+  EXPECT_GE(bench.count(ScipTrouble::WrongUnit), 1U);
+  EXPECT_EQ(bench.sent("BM"), 0);
+  EXPECT_EQ(bench.session.counters().scans, 0U);
+}
+
 TEST(ScipSession, tells_that_a_scanner_is_of_another_model_and_uses_it) {
   Bench bench;
   bench.sensor.override_reply = [](const std::string& command) -> std::optional<std::string> {
