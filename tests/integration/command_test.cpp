@@ -113,8 +113,12 @@ TEST_F(Command, disk_starts_changes_its_speed_and_stops) {
 
   EXPECT_EQ(command({"stop"}).text, "accepted: idle: the disk rests, the motor is off\n");
   EXPECT_TRUE(listener.listen(kPatience, [](const Listener& heard) { return is_idle(heard) && is_standing(heard); }));
-  for (std::size_t i = 1; i < listener.answers.size(); ++i)
-    EXPECT_EQ(listener.answers[i].sweep, listener.answers[i - 1].sweep + 1);
+  // On a slow computer the detector leaves out sweeps, and says so.
+  const bool is_too_slow = daemon.output().find("the detector is slower than the disk") != std::string::npos;
+  for (std::size_t i = 1; i < listener.answers.size(); ++i) {
+    const auto step = listener.answers[i].sweep - listener.answers[i - 1].sweep;
+    EXPECT_TRUE(step == 1 || (is_too_slow && step > 1)) << step;
+  }
 }
 
 TEST_F(Command, daemon_that_listens_to_another_one_refuses) {
