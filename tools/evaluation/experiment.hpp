@@ -72,6 +72,7 @@ struct Request {
   config::Settings settings;    ///< detector, mount; the simulated noise is that of sim::ScannerOptions
   std::uint64_t seed = 1;       ///< the same seed gives the same figures, times apart
   double share = 1.0;           ///< of the runs that the experiment makes by default, in (0, 1]; at least one each
+  int scenes = 0;               ///< per case, for experiments that draw scenes; 0 leaves it to `share`
   std::filesystem::path data;   ///< recorded data for experiments that can use them; may be empty
   std::filesystem::path model;  ///< STL of a stairway for experiments that can use one; may be empty
   /// Told what part is done, 0 to 1, and what comes next; may be empty. Called by one thread at a time.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/evaluation/accuracy.hpp"
 #include "tools/evaluation/depth_camera.hpp"
 #include "tools/evaluation/experiment.hpp"
 #include "tools/evaluation/large_scale.hpp"
@@ -27,6 +28,7 @@ std::span<const Experiment> experiments() {
       {"strategies", "greedy, thorough, optimizing and joint: errors and time (Figs 19 and 20)", run_strategies},
       {"large-scale", "buildings merged from many sweeps: time and memory over the points (Fig 21)", run_large_scale},
       {"depth-camera", "stairs from single frames of a depth camera on a helmet (Table 3, Fig 22)", run_depth_camera},
+      {"accuracy", "errors in random rooms beside what the sensor allows, and how honest the sigmas are", run_accuracy},
   };
   return kExperiments;
 }

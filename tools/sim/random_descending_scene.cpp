@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "tools/sim/angles.hpp"
 #include "tools/sim/random_flight.hpp"
@@ -18,6 +20,7 @@ using Eigen::Vector2d;
 constexpr double kPi = std::numbers::pi;
 constexpr std::uint64_t kDescendingStream = 4;
 constexpr std::uint64_t kMidLandingStream = 5;
+constexpr std::uint64_t kInvertedDescendingStream = 8;
 constexpr double kMaxSkew_rad = 25 * kDegree;
 
 scan::MountOptions inverted_mount() {
@@ -74,18 +77,31 @@ void place_elsewhere(StairSpec& up, Random& random) {
 
 }  // namespace
 
-SceneSpec random_descending_scene(std::uint64_t seed) {
+namespace {
+
+SceneSpec descending_scene(std::string name, bool is_inverted, Random& random) {
   constexpr double kNearest_m = 0.27;
-  Random random{seed, kDescendingStream};
   SceneSpec spec;
-  spec.name = fmt::format("random-descending:{}", seed);
-  const bool is_inverted = random.chance(0.5);
+  spec.name = std::move(name);
   StairSpec flight = is_inverted ? usual_flight(random) : shallow_flight(random);
   place_edge(flight, random_yaw(random), kNearest_m, random);
   spec.stairs = {flight};
   surround(spec, random);
   spec.mount = is_inverted ? inverted_mount() : scan::MountOptions{};
   return spec;
+}
+
+}  // namespace
+
+SceneSpec random_descending_scene(std::uint64_t seed) {
+  Random random{seed, kDescendingStream};
+  const bool is_inverted = random.chance(0.5);
+  return descending_scene(fmt::format("random-descending:{}", seed), is_inverted, random);
+}
+
+SceneSpec random_inverted_descending_scene(std::uint64_t seed) {
+  Random random{seed, kInvertedDescendingStream};
+  return descending_scene(fmt::format("random-inverted-descending:{}", seed), true, random);
 }
 
 SceneSpec random_mid_landing_scene(std::uint64_t seed) {

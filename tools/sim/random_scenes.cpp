@@ -35,9 +35,12 @@ struct Kind {
   SceneSpec (*make)(std::uint64_t seed);
 };
 
-constexpr std::array kKinds{Kind{"random-stairs", random_stair_scene}, Kind{"random-spiral", random_spiral_scene},
+constexpr std::array kKinds{Kind{"random-stairs", random_stair_scene},
+                            Kind{"random-spiral", random_spiral_scene},
                             Kind{"random-descending", random_descending_scene},
-                            Kind{"random-mid-landing", random_mid_landing_scene}, Kind{"random-room", random_room}};
+                            Kind{"random-inverted-descending", random_inverted_descending_scene},
+                            Kind{"random-mid-landing", random_mid_landing_scene},
+                            Kind{"random-room", random_room}};
 
 }  // namespace
 

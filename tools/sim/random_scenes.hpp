@@ -34,6 +34,9 @@ SceneSpec random_spiral_scene(std::uint64_t seed);
 /// fourth on.
 SceneSpec random_descending_scene(std::uint64_t seed);
 
+/// The same for the inverted mount alone.
+SceneSpec random_inverted_descending_scene(std::uint64_t seed);
+
 /// A furnished room on the way between two storeys: one flight up and one down from the floor of the robot, side by
 /// side or in different directions; the upper edge of the second is 0.3 to 0.7 m away, and `mount` is the inverted one,
 /// which sees both. stairs[0] is the one that goes up.

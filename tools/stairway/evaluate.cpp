@@ -173,6 +173,9 @@ Action declare_evaluate(CLI::App& command) {
       ->type_name("F")
       ->check(CLI::Range(1e-6, 1.0).description(""))
       ->capture_default_str();
+  command.add_option("--scenes", arguments->request.scenes, "in each case, for accuracy; without it, --share decides")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100'000).description(""));
   command.add_option("--plots", arguments->plots, "draw the charts into this folder, each as .svg and .png")
       ->type_name("DIR");
   command.add_option("--data", arguments->request.data, "recorded data, for experiments that can use them")
