@@ -21,6 +21,12 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
       .real("min_grazing", segmentation.min_grazing_rad, kDegree, {0, 44},
             "surfaces seen flatter than this are ghosts of two others; 0 keeps them");
 
+  Section(table, "detector.level")
+      .on_off("by_scene", detector.level.enabled,
+              "turn the cloud so that floors, treads and walls are level and upright")
+      .real("max_tilt", detector.level.max_tilt_rad, kDegree, {0.1, 22}, "of the cloud against level")
+      .real("max_sigma", detector.level.max_sigma_rad, kDegree, {0.001, 10}, "what is less certain is not used");
+
   Section(table, "detector.normals")
       .real("radius", segmentation.normals.radius_m, kMillimetre, {5, 500}, "neighbours within it make a normal")
       .whole("min_neighbours", segmentation.normals.min_neighbours, 3, 1000,

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "detector/scene_level.hpp"
 
 namespace stairway::detect {
 
@@ -49,7 +52,7 @@ struct Stairway {
   bool railing_left = false;
   bool railing_right = false;
   std::vector<Nosing> nosings;  ///< every nosing, lowest first, the edge of the upper landing included
-  double score = 0.0;           ///< eq 2; comparable only within one cloud
+  double score = 0.0;         ///< eq 2; comparable only within one cloud
 
   /// The nosing where the robot meets the stairway: the lowest of an ascending one, the highest of a descending one.
   /// @pre there are nosings.
@@ -70,6 +73,9 @@ struct Rejection {
 struct Detection {
   std::vector<Stairway> stairways;  ///< the one with most evidence first
   std::vector<Rejection> rejected;
+  /// How the cloud was turned before anything was looked for; nothing when the scene did not say. What was found is
+  /// told in the levelled frame.
+  std::optional<SceneLevel> level;
 };
 
 }  // namespace stairway::detect

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "detector/cloud_faults.hpp"
+#include "detector/levelling.hpp"
 #include "detector/voxel_grid.hpp"
 
 namespace stairway::detect {
@@ -95,29 +96,24 @@ std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const scan::Po
   return fitted;
 }
 
-}  // namespace
-
-std::string DetectorOptions::problem() const {
-  if (!(voxel_m > 0.0)) return "voxel_m must be greater than 0";
-  for (const std::string& problem :
-       {segmentation.problem(), plane_finder.problem(), fragment_merging.problem(), competition.problem(),
-        joint_fit.problem(), railing.problem(), localisation.problem()})
-    if (!problem.empty()) return problem;
-  return {};
+// The floor may slope away from where the robot stands.
+void begin_on_floor(const std::optional<SceneLevel>& level, std::vector<FittedStairway>& fitted) {
+  if (!level) return;
+  for (FittedStairway& stairway : fitted)
+    if (stairway.view == View::FromBelow)
+      stairway.floor_m = level->floor_at(stairway.model.step(stairway.first).nosing);
 }
 
-Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions& options,
-                           const StageListener& on_stage) {
-  begin_stage(on_stage, "voxel_grid");
-  const scan::PointCloud thinned = voxel_centroids(cloud, options.voxel_m);
-  std::vector<PlaneRegion> regions = segment(thinned, options.segmentation, on_stage);
-  begin_stage(on_stage, "plane_finder");
+Detection detect_in_level_cloud(const scan::PointCloud& cloud, const scan::PointCloud& thinned,
+                                std::vector<PlaneRegion> regions, const std::optional<SceneLevel>& level,
+                                const DetectorOptions& options, const StageListener& on_stage) {
   regions = merge_fragments(thinned, std::move(regions), options.plane_finder, options.fragment_merging);
   const std::vector<StairPart> parts = find_parts(thinned, regions, options.plane_finder);
   begin_stage(on_stage, "stair_graph");
   const CompetitionResult competition = compete(parts, options.competition);
   begin_stage(on_stage, "fit");
   Detection detection;
+  detection.level = level;
   if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
   std::vector<FittedStairway> fitted;
   if (options.competition.strategy == Strategy::Joint) {
@@ -130,6 +126,7 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
                     detection.rejected);
   begin_stage(on_stage, "railing");
   fitted = without_duplicates(std::move(fitted));
+  begin_on_floor(level, fitted);
   begin_on_landings(fitted);
   for (FittedStairway& stairway : fitted)
     stairway.railing =
@@ -137,6 +134,31 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
   begin_stage(on_stage, "localisation");
   for (const FittedStairway& stairway : fitted) detection.stairways.push_back(localise(stairway, options.localisation));
   return detection;
+}
+
+}  // namespace
+
+std::string DetectorOptions::problem() const {
+  if (!(voxel_m > 0.0)) return "voxel_m must be greater than 0";
+  for (const std::string& problem :
+       {segmentation.problem(), level.problem(), plane_finder.problem(), fragment_merging.problem(),
+        competition.problem(), joint_fit.problem(), railing.problem(), localisation.problem()})
+    if (!problem.empty()) return problem;
+  return {};
+}
+
+Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions& options,
+                           const StageListener& on_stage) {
+  begin_stage(on_stage, "voxel_grid");
+  scan::PointCloud thinned = voxel_centroids(cloud, options.voxel_m);
+  std::vector<PlaneRegion> regions = segment(thinned, options.segmentation, on_stage);
+  begin_stage(on_stage, "plane_finder");
+  const std::optional<SceneLevel> level = options.level.enabled ? level_by_scene(regions, options.level) : std::nullopt;
+  if (!level) return detect_in_level_cloud(cloud, thinned, std::move(regions), level, options, on_stage);
+  thinned = transformed(thinned, level->T_level_cloud);
+  transform(regions, level->T_level_cloud);
+  return detect_in_level_cloud(transformed(cloud, level->T_level_cloud), thinned, std::move(regions), level, options,
+                               on_stage);
 }
 
 }  // namespace stairway::detect

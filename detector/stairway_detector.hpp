@@ -7,6 +7,7 @@
 #include "detector/competition.hpp"
 #include "detector/fragment_merging.hpp"
 #include "detector/joint_fit.hpp"
+#include "detector/level_by_scene.hpp"
 #include "detector/localisation.hpp"
 #include "detector/plane_finder.hpp"
 #include "detector/railing.hpp"
@@ -20,6 +21,7 @@ namespace stairway::detect {
 struct DetectorOptions {
   double voxel_m = 0.01;  ///< edge of the thinning cells [m], > 0; the paper's 1 cm
   SegmentationOptions segmentation;
+  SceneLevelOptions level;
   PlaneFinderOptions plane_finder;
   FragmentMergingOptions fragment_merging;
   CompetitionOptions competition;

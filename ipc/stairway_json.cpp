@@ -51,6 +51,14 @@ Json to_json(const detect::Rejection& rejection) {
   return {{"reason", rejection.reason}, {"detail", rejection.detail}, {"figures", std::move(figures)}};
 }
 
+Json to_json(const detect::SceneLevel& level) {
+  return {{"roll", number(level.roll_rad)},
+          {"pitch", number(level.pitch_rad)},
+          {"sigma", number(level.sigma_rad)},
+          {"planes", level.planes},
+          {"floor_slope", level.floor_slope_rad ? number(*level.floor_slope_rad) : Json(nullptr)}};
+}
+
 }  // namespace
 
 std::string detection_json(std::string_view source, std::size_t points, const Timings& timings,
@@ -61,11 +69,12 @@ std::string detection_json(std::string_view source, std::size_t points, const Ti
   for (const detect::Stairway& stairway : detection.stairways) stairways.push_back(to_json(stairway));
   Json rejected = Json::array();
   for (const detect::Rejection& rejection : detection.rejected) rejected.push_back(to_json(rejection));
-  const Json object{{"source", source},
-                    {"points", points},
-                    {"timing_ms", std::move(timing_ms)},
-                    {"stairways", std::move(stairways)},
-                    {"rejected", std::move(rejected)}};
+  Json object{{"source", source},
+              {"points", points},
+              {"timing_ms", std::move(timing_ms)},
+              {"stairways", std::move(stairways)},
+              {"rejected", std::move(rejected)}};
+  if (detection.level) object["level"] = to_json(*detection.level);
   return object.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

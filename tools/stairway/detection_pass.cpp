@@ -71,6 +71,7 @@ DetectionPass detect_once(scan::PointCloud cloud, const config::Settings& settin
     pass.detection.rejected.push_back(std::move(*rejection));
   } else {
     pass.detection = detect::detect_stairways(pass.cloud, settings.detector, begin_stage);
+    if (pass.detection.level) pass.cloud = detect::transformed(pass.cloud, pass.detection.level->T_level_cloud);
   }
   timer.stop();
   pass.timings = timer.timings();
