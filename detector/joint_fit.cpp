@@ -8,12 +8,26 @@
 #include <functional>
 
 #include "detector/statistics.hpp"
+#include "detector/step_ends.hpp"
 
 namespace stairway::detect {
 namespace {
 
 // Changes of the model from where a pass of the fit begins, so that all are small and of like size.
-enum Unknown { kAlong, kDepth, kHeight, kRise, kOverhang, kThickness, kHeading, kTurn, kTopBias, kUnknowns };
+enum Unknown {
+  kAlong,
+  kDepth,
+  kHeight,
+  kRise,
+  kOverhang,
+  kThickness,
+  kHeading,
+  kTurn,
+  kTopBias,
+  kSightBias,
+  kBarBias,
+  kUnknowns
+};
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
 constexpr double kMostOverhang_m = 0.06;
@@ -85,11 +99,10 @@ Solution solve(const Residuals& residuals) {
 
 // What one measurement of a front or an edge may be off by for reasons its scatter does not show.
 constexpr double kFrontFloor_m = 0.0005;
-constexpr double kHeightFloor_m = 0.001;
+constexpr double kHeightFloor_m = 0.0003;
 
 constexpr double kTurnFloor_rad = 0.0002;
 
-constexpr double kEndFloor_m = 0.003;
 constexpr int kMostSteps = 200;  // bounds the search beyond the ends
 constexpr double kNarrowest_m = 0.1;
 constexpr double kUnmeasuredEnd_m = 0.03;  // an end known from the parts alone
@@ -98,20 +111,32 @@ constexpr double kGraphSigma_rad = 0.03;
 constexpr double kHeadingStep_rad = 0.1;
 constexpr double kUsualTopBias_m = 0.015;
 constexpr double kUsualOverhang_m = 0.015;
+constexpr double kNoOverhang_m = 0.001;  // where there are no risers, what fronts there are are those of the treads
+// Where within its spot a beam leaves an edge, and where between a bar and what lies behind it says it ends; the same
+// for all steps, at an angle.
+constexpr double kUsualSightBias_rad = 0.7e-3;
+constexpr double kUsualBarBias_rad = 1.7e-3;
 constexpr double kUsualThickness_m = 0.04;
 
 // How far a measured step lies from that of a model, in sigmas.
 class StepResiduals {
  public:
-  StepResiduals(const StairModel& model, double top_bias_m, std::vector<double>& residuals)
-      : model_(model), top_bias_m_(top_bias_m), residuals_(residuals) {}
+  StepResiduals(const StairModel& model, const Unknowns& change, std::vector<double>& residuals)
+      : model_(model), change_(change), residuals_(residuals) {}
 
   void add(const StepMeasurement& step) {
     const StepFrame predicted = model_.step(step.number);
     const double rise = predicted.nosing.z() - step.frame.nosing.z();
     if (step.front) {
       const Eigen::Vector3d front = step.frame.from_step({step.front->value, step.middle_v, 0.0});
-      add(predicted.to_step(front).u - model_.overhang_m, step.front->sigma, kFrontFloor_m);
+      const double u = predicted.to_step(front).u;
+      // A bar is its own lip.
+      const double expected = step.is_bar ? change_[kBarBias] * step.distance_m : model_.overhang_m;
+      add(u - expected, step.front->sigma, kFrontFloor_m);
+    }
+    if (step.lip && !step.is_bar) {
+      const Eigen::Vector3d lip = step.frame.from_step({step.lip->value, step.middle_v, 0.0});
+      add(predicted.to_step(lip).u, step.lip->sigma, kFrontFloor_m);
     }
     if (step.turn) {
       const double turned = -predicted.descent.dot(step.frame.left());  // small angle
@@ -123,9 +148,10 @@ class StepResiduals {
     // Over a front the tread itself, where it is seen, tells the height better.
     if (step.nosing && !(step.nosing->over_a_front && step.surface)) {
       const StepPoint p = predicted.to_step(step.frame.from_step(step.nosing->at));
-      const double bias = step.nosing->without_sight ? top_bias_m_ : 0.0;
+      const double bias = step.nosing->without_sight ? change_[kTopBias] : 0.0;
       const double off = (p.z - bias) * step.nosing->along_u - p.u * step.nosing->along_z;
-      add(off, step.nosing->sigma_m, kHeightFloor_m);
+      const double outwards = step.nosing->over_a_front ? change_[kSightBias] * step.nosing->distance_m : 0.0;
+      add(off - outwards, step.nosing->sigma_m, kHeightFloor_m);
     }
   }
 
@@ -133,7 +159,7 @@ class StepResiduals {
   void add(double residual, double sigma, double floor) { residuals_.push_back(residual / std::hypot(sigma, floor)); }
 
   const StairModel& model_;
-  double top_bias_m_;
+  const Unknowns& change_;
   std::vector<double>& residuals_;
 };
 
@@ -168,6 +194,7 @@ class JointFitter {
     for (int pass = 0; pass < options_.passes; ++pass) {
       if (!measure(pass == 0 ? 0 : fit_.last - fit_.first + 1)) return std::nullopt;
       fit_steps();
+      if (pass + 1 == options_.passes) fit_.offsets = offsets();
       if (!fit_sides()) return std::nullopt;
     }
     return fit_;
@@ -257,6 +284,14 @@ class JointFitter {
                   steps_.begin() + static_cast<std::ptrdiff_t>(best_end));
   }
 
+  bool has_risers() const {
+    const auto fronts =
+        std::count_if(steps_.begin(), steps_.end(), [](const StepMeasurement& step) { return step.front.has_value(); });
+    const auto risers =
+        std::count_if(steps_.begin(), steps_.end(), [](const StepMeasurement& step) { return step.has_riser; });
+    return 2 * risers > fronts;
+  }
+
   Eigen::VectorXd residuals(const Unknowns& change) const {
     const StairModel model = moved(fit_.model, change);
     std::vector<double> rows;
@@ -264,11 +299,13 @@ class JointFitter {
     rows.push_back((model.depth_m - prior_.depth_m) / kGraphSigma_m);
     rows.push_back((model.height_m - prior_.height_m) / kGraphSigma_m);
     rows.push_back((model.turn_rad - prior_.turn_rad) / kGraphSigma_rad);
-    rows.push_back(model.overhang_m / kUsualOverhang_m);
+    rows.push_back(model.overhang_m / (has_risers() ? kUsualOverhang_m : kNoOverhang_m));
     rows.push_back((model.tread_thickness_m - kUsualThickness_m) / kUsualThickness_m);
     rows.push_back(change[kHeading] / kHeadingStep_rad);
     rows.push_back(change[kTopBias] / kUsualTopBias_m);
-    StepResiduals of_steps(model, change[kTopBias], rows);
+    rows.push_back(change[kSightBias] / kUsualSightBias_rad);
+    rows.push_back(change[kBarBias] / kUsualBarBias_rad);
+    StepResiduals of_steps(model, change, rows);
     for (const StepMeasurement& step : steps_) of_steps.add(step);
     return Eigen::Map<const Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size()));
   }
@@ -276,39 +313,42 @@ class JointFitter {
   void fit_steps() {
     const Solution solution = solve([this](const Unknowns& change) { return residuals(change); });
     fit_.model = moved(fit_.model, solution.change);
+    biases_ = {.sight_rad = solution.change[kSightBias], .bar_rad = solution.change[kBarBias]};
     fit_.sigmas = {.height_m = solution.sigmas[kRise],
                    .depth_m = solution.sigmas[kDepth],
                    .heading_rad = solution.sigmas[kHeading]};
   }
 
-  // Posts and bystanders cut steps short, nothing makes them longer: the outer quartile of their ends is the flight's.
-  // Each counts only as far out as it is certain.
-  static std::optional<Estimate> outer_end(const std::vector<Estimate>& estimates, double outward) {
-    if (estimates.size() < 2) return std::nullopt;
-    std::vector<double> ends;
-    for (const Estimate& estimate : estimates) ends.push_back(estimate.value - outward * estimate.sigma);
-    std::sort(ends.begin(), ends.end(), [&](double a, double b) { return outward * a > outward * b; });
-    const double end = ends[ends.size() / 4];
-    double scatter = 0.0;
-    for (std::size_t i = 0; i <= ends.size() / 2; ++i) scatter = std::max(scatter, std::abs(ends[i] - end));
-    return Estimate{end, std::max(scatter / std::sqrt(static_cast<double>(ends.size())), kEndFloor_m)};
+  // What an irregular stairway has told about biases was its irregularity.
+  std::vector<StepOffset> offsets() const {
+    std::vector<StepOffset> offsets = step_offsets(fit_.model, biases_, steps_);
+    return are_irregular(offsets) ? step_offsets(fit_.model, {}, steps_) : offsets;
   }
 
   // Also puts the middle line into the middle of the sides.
   bool fit_sides() {
     std::vector<Estimate> rights;
     std::vector<Estimate> lefts;
+    std::vector<double> right_limits;
+    std::vector<double> left_limits;
     for (const StepMeasurement& step : steps_) {
       if (step.right_end) rights.push_back(*step.right_end);
       if (step.left_end) lefts.push_back(*step.left_end);
+      if (step.right_limit) right_limits.push_back(*step.right_limit);
+      if (step.left_limit) left_limits.push_back(*step.left_limit);
     }
-    const std::optional<Estimate> right = outer_end(rights, -1.0);
-    const std::optional<Estimate> left = outer_end(lefts, +1.0);
+    const std::optional<Estimate> right = common_end(rights, -1.0);
+    const std::optional<Estimate> left = common_end(lefts, +1.0);
     if (right) fit_.sides.low = right->value;
     if (left) fit_.sides.high = left->value;
     fit_.sides_sigma_m = std::hypot(right ? right->sigma : kUnmeasuredEnd_m, left ? left->sigma : kUnmeasuredEnd_m);
     if (!(fit_.sides.length() > kNarrowest_m)) return false;
-    fit_.model = fit_.model.moved_aside(fit_.sides.middle());
+    const double middle = fit_.sides.middle();
+    fit_.right_limit.reset();
+    fit_.left_limit.reset();
+    if (!right_limits.empty()) fit_.right_limit = outer_quartile(right_limits, true) - middle;
+    if (!left_limits.empty()) fit_.left_limit = outer_quartile(left_limits, false) - middle;
+    fit_.model = fit_.model.moved_aside(middle);
     prior_ = prior_.moved_aside(fit_.sides.middle());
     const double half = 0.5 * fit_.sides.length();
     fit_.sides = {-half, half};
@@ -321,6 +361,7 @@ class JointFitter {
   StairCorridor corridor_;
   JointFit fit_;
   std::vector<StepMeasurement> steps_;
+  CommonBiases biases_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "detector/stair_fit.hpp"
 #include "detector/step_measurement.hpp"
+#include "detector/step_offsets.hpp"
 #include "scan_assembly/point_cloud.hpp"
 
 namespace stairway::detect {
@@ -29,11 +30,15 @@ struct JointFit {
   FitSigmas sigmas;
   Interval sides;              ///< along left() from the middle line of the model, which is its middle [m]
   double sides_sigma_m = 0.0;  ///< of its length
-  int first = 0;               ///< number of the lowest step of which points were found
-  int last = 0;                ///< and of the highest
-  bool on_landing = false;     ///< it begins on a floor of its own, which was seen below its lowest step
-  int seen_steps = 0;          ///< how many of them have points
-  int measurements = 0;        ///< fronts, treads and undersides measured on them
+  /// Where the first free lines of sight pass beyond the ends, whatever hides the ends themselves.
+  std::optional<double> right_limit;
+  std::optional<double> left_limit;  ///< likewise
+  int first = 0;                     ///< number of the lowest step of which points were found
+  int last = 0;                      ///< and of the highest
+  bool on_landing = false;           ///< it begins on a floor of its own, which was seen below its lowest step
+  int seen_steps = 0;                ///< how many of them have points
+  std::vector<StepOffset> offsets;   ///< of the seen steps from the model
+  int measurements = 0;              ///< fronts, treads and undersides measured on them
 };
 
 /// Fits one model to the points of a stairway: fronts fix d, s and delta phi, treads and the edges of sight fix h. A

@@ -98,6 +98,40 @@ bool is_under(const Eigen::Vector3d& nosing, const FittedStairway& flight) {
   return p.u > -run && p.z < surface && p.v > flight.sides.low && p.v < flight.sides.high;
 }
 
+// An irregular stairway has its nosings where they were measured, a regular one where the model has them.
+StepOffset offset_of(const FittedStairway& stairway, int number, bool is_irregular) {
+  const auto measured = std::find_if(stairway.offsets.begin(), stairway.offsets.end(),
+                                     [&](const StepOffset& offset) { return offset.number == number; });
+  return is_irregular && measured != stairway.offsets.end() ? *measured : StepOffset{.number = number};
+}
+
+StepSize size_between(const Estimate& up_before, const Estimate& up, const Estimate& ahead_before,
+                      const Estimate& ahead, const FittedStairway& stairway) {
+  const auto sigma = [](const Estimate& a, const Estimate& b, double of_all) {
+    return std::hypot(of_all, a.sigma, b.sigma);
+  };
+  return {.height = stairway.model.height_m + up.value - up_before.value,
+          .height_sigma = sigma(up_before, up, stairway.sigmas.height_m),
+          .depth = stairway.model.depth_m + ahead.value - ahead_before.value,
+          .depth_sigma = sigma(ahead_before, ahead, stairway.sigmas.depth_m)};
+}
+
+void place_nosings(const FittedStairway& placed, const StairModel& model, Stairway& stairway) {
+  const double half = 0.5 * placed.sides.length();
+  Estimate up_before, ahead_before;  // the floor lies where the model has it
+  for (int number = placed.first; number <= placed.last; ++number) {
+    const StepFrame step = model.step(number);
+    const StepOffset offset = offset_of(placed, number, stairway.is_irregular);
+    const Estimate up = offset.up.value_or(Estimate{});
+    const Estimate ahead = offset.ahead.value_or(Estimate{});
+    stairway.nosings.push_back({step.from_step({.u = ahead.value, .v = half, .z = up.value}),
+                                step.from_step({.u = ahead.value, .v = -half, .z = up.value})});
+    stairway.step_sizes.push_back(size_between(up_before, up, ahead_before, ahead, placed));
+    up_before = up;
+    ahead_before = ahead;
+  }
+}
+
 AnchorSide anchor_side(const Railing& railing) {
   if (railing.left == railing.right) return AnchorSide::Middle;
   return railing.left ? AnchorSide::Left : AnchorSide::Right;
@@ -176,16 +210,14 @@ Stairway localise(const FittedStairway& fitted, const LocalisationOptions& optio
   stairway.heading = std::atan2(-descent.y(), -descent.x());
   stairway.turn_per_step = model.turn_rad;
   stairway.step_height_sigma = placed.sigmas.height_m;
-  stairway.step_depth_sigma = placed.sigmas.depth_m;
+  // The depth at mid width of a spiral is known no better than its middle.
+  stairway.step_depth_sigma = std::hypot(placed.sigmas.depth_m, 0.5 * placed.sides_sigma_m * model.turn_rad);
   stairway.heading_sigma = placed.sigmas.heading_rad;
   stairway.width_sigma = placed.sides_sigma_m;
   stairway.score = placed.score;
 
-  const double half = 0.5 * placed.sides.length();
-  for (int number = placed.first; number <= placed.last; ++number) {
-    const StepFrame step = model.step(number);
-    stairway.nosings.push_back({step.from_step({.v = half}), step.from_step({.v = -half})});
-  }
+  stairway.is_irregular = are_irregular(placed.offsets);
+  place_nosings(placed, model, stairway);
   stairway.railing_left = placed.railing.left;
   stairway.railing_right = placed.railing.right;
   stairway.anchor_side = anchor_side(placed.railing);

@@ -8,6 +8,7 @@
 #include "detector/competition.hpp"
 #include "detector/railing.hpp"
 #include "detector/stairway.hpp"
+#include "detector/step_offsets.hpp"
 
 namespace stairway::detect {
 
@@ -23,10 +24,11 @@ struct FittedStairway {
   Interval sides;              ///< along left(), from the middle line of the model [m]
   double sides_sigma_m = 0.0;  ///< of its length
   FitSigmas sigmas;
-  int first = 0;            ///< number of the lowest step seen
-  int last = 0;             ///< and of the highest
-  bool on_landing = false;  ///< begins on a floor that was seen, so it is not continued to the ground
-  double floor_m = 0.0;     ///< level of the floor it is continued to
+  std::vector<StepOffset> offsets;  ///< of its steps from the model; empty when none were measured
+  int first = 0;                    ///< number of the lowest step seen
+  int last = 0;                     ///< and of the highest
+  bool on_landing = false;          ///< begins on a floor that was seen, so it is not continued to the ground
+  double floor_m = 0.0;             ///< level of the floor it is continued to
   View view = View::FromBelow;
   double score = 0.0;  ///< eq 2
   int evidence = 0;    ///< parts, or measurements of steps, that bear it out

@@ -34,15 +34,6 @@ std::optional<double> railing_beside(const std::vector<Eigen::Vector3d>& points,
   return find_balusters(points, options);
 }
 
-// Neither of the steps nor near enough to one to be mistaken for it.
-bool is_clear_of_steps(const StairModel& model, const FlightPoint& p) {
-  constexpr double kClear_m = 0.04;
-  if (p.above_m > kClear_m) return true;
-  const double fraction = p.step - std::floor(p.step);
-  return p.above_m + fraction * model.height_m > kClear_m && fraction * model.depth_m > kClear_m &&
-         (1.0 - fraction) * model.depth_m > kClear_m;
-}
-
 }  // namespace
 
 std::string RailingOptions::problem() const {
@@ -74,19 +65,6 @@ Railing find_railing(const scan::PointCloud& cloud, const StairModel& model, con
           .right = right.has_value(),
           .left_side_m = left ? sides.high + *left : 0.0,
           .right_side_m = right ? sides.low - *right : 0.0};
-}
-
-scan::PointCloud without_railing(const scan::PointCloud& cloud, const StairModel& model, const Railing& railing) {
-  constexpr double kHalfWidth_m = 0.06;
-  constexpr double kTop_m = 1.3;
-  scan::PointCloud result = cloud;
-  std::erase_if(result.points, [&](const Eigen::Vector3f& point) {
-    const FlightPoint p = to_flight(model, point.cast<double>());
-    const bool in_line = (railing.left && std::abs(p.side_m - railing.left_side_m) < kHalfWidth_m) ||
-                         (railing.right && std::abs(p.side_m - railing.right_side_m) < kHalfWidth_m);
-    return in_line && p.above_m < kTop_m && is_clear_of_steps(model, p);
-  });
-  return result;
 }
 
 }  // namespace stairway::detect

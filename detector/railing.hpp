@@ -49,9 +49,4 @@ struct Railing {
 Railing find_railing(const scan::PointCloud& cloud, const StairModel& model, const Interval& sides, int first, int last,
                      const RailingOptions& options = {});
 
-/// The cloud without what stands on the treads in the line of a railing.
-///
-/// A baluster hides the end of the step behind it, and says nothing about where that is.
-scan::PointCloud without_railing(const scan::PointCloud& cloud, const StairModel& model, const Railing& railing);
-
 }  // namespace stairway::detect

@@ -32,6 +32,14 @@ struct Nosing {
   Eigen::Vector3d at(AnchorSide side) const;
 };
 
+/// One step on its own, from the nosing below to its nosing, or from the floor to the first one [m].
+struct StepSize {
+  double height = 0.0;
+  double height_sigma = 0.0;
+  double depth = 0.0;
+  double depth_sigma = 0.0;
+};
+
 /// A stairway as the locomotion controller wants it; `base` frame, metres and radians.
 /// The simulator states its truth in the same form.
 struct Stairway {
@@ -52,6 +60,10 @@ struct Stairway {
   bool railing_left = false;
   bool railing_right = false;
   std::vector<Nosing> nosings;  ///< every nosing, lowest first, the edge of the upper landing included
+  /// Of every nosing in turn. Those of a regular stairway are all alike; those of an irregular one as they were
+  /// measured where they were, with the sigmas of the whole where they were not.
+  std::vector<StepSize> step_sizes;
+  bool is_irregular = false;  ///< its steps differ by more than their measurements' errors explain
   double score = 0.0;         ///< eq 2; comparable only within one cloud
 
   /// The nosing where the robot meets the stairway: the lowest of an ascending one, the highest of a descending one.

@@ -47,6 +47,7 @@ FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
           .sides = fit.sides,
           .sides_sigma_m = fit.sides_sigma_m,
           .sigmas = fit.sigmas,
+          .offsets = fit.offsets,
           .first = fit.first,
           .last = fit.last,
           .on_landing = fit.on_landing,
@@ -55,21 +56,15 @@ FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
           .evidence = fit.measurements};
 }
 
-// Balusters hide the ends of the steps behind them; without them these are measured once more.
-Interval sides_past_railing(const scan::PointCloud& cloud, const scan::PointCloud& thinned, const Winner& winner,
-                            const JointFit& fit, const DetectorOptions& options) {
-  const Railing railing = find_railing(thinned, fit.model, fit.sides, fit.first, fit.last, options.railing);
-  if (!railing.any()) return fit.sides;
-  // The fit has put the middle line of its model elsewhere than the graph has it.
-  const double aside = winner.graph.model.step(0).to_step(fit.model.nosing).v;
-  const Interval sides_of_graph{fit.sides.low + aside, fit.sides.high + aside};
-  const std::optional<JointFit> again = fit_jointly(without_railing(cloud, fit.model, railing), winner.graph,
-                                                    sides_of_graph, winner.view, options.joint_fit);
-  if (!again) return fit.sides;
-  const double shift = fit.model.step(0).to_step(again->model.nosing).v;
+// Balusters hide the ends of the steps behind them, which lie between the last point seen and the first line of sight
+// that passes freely beyond; posts stand close to the ends.
+Interval sides_past_railing(const scan::PointCloud& thinned, const JointFit& fit, const RailingOptions& options) {
+  constexpr double kFarthestInset_m = 0.3;
+  const Railing railing = find_railing(thinned, fit.model, fit.sides, fit.first, fit.last, options);
   Interval sides = fit.sides;
-  if (railing.left) sides.high = std::max(sides.high, again->sides.high + shift);
-  if (railing.right) sides.low = std::min(sides.low, again->sides.low + shift);
+  const auto is_beyond = [](double limit, double end) { return limit > end && limit < end + kFarthestInset_m; };
+  if (railing.left && fit.left_limit && is_beyond(*fit.left_limit, sides.high)) sides.high = *fit.left_limit;
+  if (railing.right && fit.right_limit && is_beyond(-*fit.right_limit, -sides.low)) sides.low = *fit.right_limit;
   return sides;
 }
 
@@ -87,7 +82,7 @@ std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const scan::Po
               : std::string("no-points-on-steps");
     if (rule.empty()) {
       fitted.push_back(as_fitted(*joint, winner));
-      fitted.back().sides = sides_past_railing(cloud, thinned, winner, *joint, options);
+      fitted.back().sides = sides_past_railing(thinned, *joint, options.railing);
     } else {
       detection.rejected.push_back(rejection(rule, joint ? joint->model : winner.graph.model,
                                              joint ? joint->seen_steps : 0, rules.confirmation));

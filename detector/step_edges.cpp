@@ -5,16 +5,22 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "detector/sight_edge.hpp"
+#include "detector/statistics.hpp"
 #include "detector/step_line.hpp"
 #include "detector/step_reaches.hpp"
 
 namespace stairway::detect {
 namespace {
 
-constexpr double kColumn_m = 0.05;  // strips across the sides, for nosings
-constexpr double kRow_m = 0.02;     // strips across a face, for its ends
+constexpr double kColumn_m = 0.05;          // strips across the sides, for nosings
+constexpr double kRow_m = 0.02;             // strips across a face, for its ends
+constexpr double kSightScatter_rad = 3e-4;  // by which beams leave edges elsewhere in their spot, from step to step
+constexpr double kHalfBeam_rad = 2.2e-3;
+constexpr double kLipBand_m = 0.045;
+constexpr double kLipRow_m = 0.011;
 
 /// A place and the v at which it was found.
 struct EdgePlace {
@@ -54,12 +60,21 @@ class EdgeStrips {
     return (beyond - before) / std::sqrt(12.0);
   }
 
+  /// The edge that all strips tell together, closer than each alone: they cut it at different places.
+  std::optional<Estimate> edge() const {
+    std::vector<Crossing> all;
+    for (const std::vector<Crossing>& strip : strips_) all.insert(all.end(), strip.begin(), strip.end());
+    const std::optional<SightEdge> edge = edge_between(all);
+    if (!edge) return std::nullopt;
+    return Estimate{edge->place, edge->sigma};
+  }
+
   std::vector<EdgePlace> edges() {
     std::vector<EdgePlace> found;
     for (std::size_t i = 0; i < strips_.size(); ++i) {
       const double middle =
           range_.low + (static_cast<double>(i) + 0.5) / static_cast<double>(strips_.size()) * range_.length();
-      if (const std::optional<double> place = edge_between(strips_[i])) found.push_back({middle, *place});
+      if (const std::optional<SightEdge> edge = edge_between(strips_[i])) found.push_back({middle, edge->place});
     }
     return found;
   }
@@ -81,6 +96,7 @@ NosingSight sight_over(const StepView& view, double u, double z, double sigma_m,
   NosingSight sight{.at = {u, view.sides().middle(), z}, .sigma_m = sigma_m, .over_a_front = over_a_front};
   if (view.sensor()) {
     const double length = std::hypot(u - view.sensor()->u, z - view.sensor()->z);
+    sight.distance_m = std::hypot(length, view.sides().middle() - view.sensor()->v);
     sight.along_u = (u - view.sensor()->u) / length;
     sight.along_z = (z - view.sensor()->z) / length;
   }
@@ -109,14 +125,32 @@ struct Face {
   std::function<double(const StepPoint&)> side;    ///< and its v
   std::function<double(const StepPoint&)> beyond;  ///< how far the point lies behind the face [m]
   double reach;                                    ///< a point is on the face within this distance [m]
+  double row_m = kRow_m;                           ///< height of the strips it is cut into
 };
 
-std::optional<Estimate> end_of(const StepView& view, const Face& face, double end) {
+// Where the first lines of sight pass freely beyond what is seen of the face, row by row; of a few the nearest.
+std::optional<double> first_free(std::vector<std::vector<Crossing>>& rows) {
+  std::vector<double> places;
+  for (const std::vector<Crossing>& row : rows) {
+    double outermost = std::numeric_limits<double>::lowest();
+    for (const Crossing& c : row)
+      if (c.on) outermost = std::max(outermost, c.place);
+    double first = std::numeric_limits<double>::max();
+    for (const Crossing& c : row)
+      if (!c.on && c.place > outermost) first = std::min(first, c.place);
+    if (outermost > std::numeric_limits<double>::lowest() && first < std::numeric_limits<double>::max())
+      places.push_back(first);
+  }
+  if (places.empty()) return std::nullopt;
+  return outer_quartile(places, false);
+}
+
+std::optional<EndMeasurement> end_of(const StepView& view, const Face& face, double end) {
   const double outward = end > view.sides().middle() ? 1.0 : -1.0;
   const double inside = std::min(kEndReach_m, 0.5 * view.sides().length());
   if (!(face.band.length() > 0.0)) return std::nullopt;
-  EdgeStrips rows(face.band, kRow_m);
-  EdgeStrips hidden(face.band, kRow_m);
+  EdgeStrips rows(face.band, face.row_m);
+  EdgeStrips hidden(face.band, face.row_m);
   for (const StepPoint& p : view.points()) {
     const double v = face.side(p);
     const double beyond_end = outward * (v - end);
@@ -130,6 +164,7 @@ std::optional<Estimate> end_of(const StepView& view, const Face& face, double en
       rows.add(face.place(p), {outward * (on ? p.v : v), on});
     }
   }
+  const std::optional<double> limit = first_free(rows.strips());
   for (std::size_t i = 0; i < rows.strips().size(); ++i) {
     // A wall at the end of the face hides nothing: it is where the face ends.
     double outermost = outward * end - kEndReach_m;
@@ -141,7 +176,12 @@ std::optional<Estimate> end_of(const StepView& view, const Face& face, double en
   constexpr double kFloor_m = 3e-4;
   std::optional<Estimate> place = common_place(rows.edges(), kFloor_m);
   if (!place) return std::nullopt;
-  return Estimate{outward * place->value, std::hypot(place->sigma, rows.gap_sigma(place->value))};
+  EndMeasurement measured{.place = {outward * place->value, std::hypot(place->sigma, rows.gap_sigma(place->value))},
+                          .limit = {}};
+  // Free lines begin half a beam beyond the end, on average.
+  if (limit)
+    measured.limit = outward * (*limit - kHalfBeam_rad * view.spot_radius_m() / (0.5 * view.options().spot_rad));
+  return measured;
 }
 
 }  // namespace
@@ -162,10 +202,14 @@ std::optional<NosingSight> nosing_over_front(const StepView& view, double front_
     const StepPoint q = view.at_front(p);
     if (std::abs(q.z) <= kEdgeReach_m) strips.add(q.v, {q.z, p.u < view.front_u() + 0.5 * view.depth_at(p.v)});
   }
-  const std::optional<Estimate> top = common_place(strips.edges(), kFloor_m);
-  if (!top) return std::nullopt;
-  const double sigma = std::hypot(top->sigma, strips.gap_sigma(top->value));
-  NosingSight sight = sight_over(view, view.front_u(), top->value, sigma, true);
+  const std::optional<Estimate> median_top = common_place(strips.edges(), kFloor_m);
+  if (!median_top) return std::nullopt;
+  const std::optional<Estimate> common_top = strips.edge();
+  const Estimate top =
+      common_top ? *common_top
+                 : Estimate{median_top->value, std::hypot(median_top->sigma, strips.gap_sigma(median_top->value))};
+  NosingSight sight = sight_over(view, view.front_u(), top.value, std::max(top.sigma, kFloor_m), true);
+  sight.sigma_m = std::hypot(sight.sigma_m, kSightScatter_rad * sight.distance_m);
   sight.sigma_m *= std::abs(sight.along_u);
   return sight;
 }
@@ -196,17 +240,55 @@ std::optional<EdgeMeasurement> nosing_over_tread(const StepView& view) {
   return edge;
 }
 
-std::optional<Estimate> end_of_front(const StepView& view, double end_v) {
+namespace {
+
+// A sensor that stands beside the flight sees its flank, on which the end lies wherever the line of sight meets it.
+std::optional<Estimate> end_by_flank(const StepView& view, double end_v) {
+  constexpr double kBeside_m = 0.1;
+  constexpr double kInwards_m = 0.06;  // stringers stand farther in
+  constexpr double kOutwards_m = 0.4;
+  constexpr double kBelow_m = 0.02;
+  constexpr double kFloor_m = 5e-4;
+  const double outward = end_v > view.sides().middle() ? 1.0 : -1.0;
+  if (outward * (view.sensor()->v - end_v) < kBeside_m) return std::nullopt;
+  std::vector<double> places;
+  for (const StepPoint& p : view.points()) {
+    const bool is_beside_step = p.u > view.front_u() + kBelow_m && p.u < 0.8 * view.model().depth_m &&
+                                p.z < -kBelow_m && p.z > -view.model().height_m;
+    const double beyond_end = outward * (p.v - end_v);
+    if (is_beside_step && beyond_end > -kInwards_m && beyond_end < kOutwards_m) places.push_back(p.v);
+  }
+  if (!view.are_enough(places.size())) return std::nullopt;
+  std::sort(places.begin(), places.end());
+  const double center = densest_place(places, view.reach_m());
+  std::vector<double> near;
+  for (const double place : places)
+    if (std::abs(place - center) <= view.reach_m()) near.push_back(place);
+  const double fair = static_cast<double>(places.size()) * 2.0 * view.reach_m() / (kInwards_m + kOutwards_m);
+  if (!view.are_enough(near.size()) || static_cast<double>(near.size()) < view.options().min_contrast * fair)
+    return std::nullopt;
+  return robust_mean(near, kFloor_m);
+}
+
+}  // namespace
+
+std::optional<EndMeasurement> end_of_front(const StepView& view, double end_v) {
+  if (const std::optional<Estimate> flank = end_by_flank(view, end_v))
+    return EndMeasurement{.place = *flank, .limit = {}};
+  // The ends of a lip that stands out are seen elsewhere than those of the front behind it.
+  const double u = view.has_lip() ? 0.0 : view.front_u();
+  const double band = view.has_lip() ? kLipBand_m : kEndBand_m;
   return end_of(view,
-                {.band = {std::max(view.visible_bottom_m(), -kEndBand_m), 0.0},
-                 .place = [&](const StepPoint& p) { return view.at_front(p).z; },
-                 .side = [&](const StepPoint& p) { return view.at_front(p).v; },
-                 .beyond = [&](const StepPoint& p) { return p.u - view.front_u(); },
-                 .reach = kFrontReach_m},
+                {.band = {std::max(view.visible_bottom_m(), -band), 0.0},
+                 .place = [&](const StepPoint& p) { return view.at_upright(p, u).z; },
+                 .side = [&](const StepPoint& p) { return view.at_upright(p, u).v; },
+                 .beyond = [&](const StepPoint& p) { return p.u - u; },
+                 .reach = kFrontReach_m,
+                 .row_m = view.has_lip() ? kLipRow_m : kRow_m},
                 end_v);
 }
 
-std::optional<Estimate> end_of_tread(const StepView& view, double end_v) {
+std::optional<EndMeasurement> end_of_tread(const StepView& view, double end_v) {
   return end_of(view,
                 {.band = {0.0, std::min(kEndBand_m, 0.5 * view.model().depth_m)},
                  .place = [&](const StepPoint& p) { return view.at_tread(p).u; },

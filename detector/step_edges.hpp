@@ -22,9 +22,15 @@ struct EdgeMeasurement {
 /// The line of sight that leaves a tread at its nosing and ends on what lies below. @pre view.stands_behind_nosing()
 std::optional<EdgeMeasurement> nosing_over_tread(const StepView& view);
 
-/// v at which lines of sight leave a front, or a tread seen from behind, near `end_v`; what stands in the way of the
-/// face (a post, a bystander) says nothing about its end.
-std::optional<Estimate> end_of_front(const StepView& view, double end_v);
-std::optional<Estimate> end_of_tread(const StepView& view, double end_v);
+/// An end of a face.
+struct EndMeasurement {
+  Estimate place;               ///< v at which lines of sight leave the face
+  std::optional<double> limit;  ///< v of the first line of sight that passes freely beyond it: the end lies before
+};
+
+/// The end of a front, or of a tread seen from behind, near `end_v`; what stands in the way of the face (a post, a
+/// bystander) says nothing about its end.
+std::optional<EndMeasurement> end_of_front(const StepView& view, double end_v);
+std::optional<EndMeasurement> end_of_tread(const StepView& view, double end_v);
 
 }  // namespace stairway::detect

@@ -12,10 +12,15 @@ namespace stairway::detect {
 struct FrontMeasurement {
   Estimate place;
   std::optional<Estimate> turn;
+  bool has_riser = true;
+  bool is_bar = false;  ///< both as in StepMeasurement
 };
 
 /// The riser of a step, or the front face of an open tread; nothing when too few points, too little of the sides or too
 /// many points behind speak for it.
 std::optional<FrontMeasurement> measure_front(const StepView& view);
+
+/// u of the lip along the nosing, or of the front where it has none; nothing where the spot is wider than lips are.
+std::optional<Estimate> measure_lip(const StepView& view);
 
 }  // namespace stairway::detect

@@ -11,6 +11,7 @@
 namespace stairway::detect {
 namespace {
 
+constexpr double kGrazing = 0.03;     // of what the spot is too wide by, how far it may shift a tread
 constexpr double kTreadMargin = 0.2;  // share of a tread at its front and back that is not measured
 
 // Clear of the edges. From below one looks past the front, whose edge mixes with what lies beyond. From behind one
@@ -28,6 +29,13 @@ bool lies_on_tread(const StepView& view, const StepPoint& p) {
   const double over_nosing = p.z - p.u * slope;
   const double spot = view.spot_radius_m() * std::hypot(1.0, slope);
   return p.u < depth && over_next > spot && over_nosing < -spot;
+}
+
+// By how much the spot is wider than a tread looks that is seen at a grazing angle: then no point on it is clean.
+double wider_than_tread_m(const StepView& view, double level_m) {
+  if (!view.sensor()) return 0.0;
+  const double slope = (view.sensor()->z - level_m) / std::hypot(view.sensor()->u, view.sensor()->v);
+  return std::max(0.0, 2.0 * view.spot_radius_m() - view.model().depth_m * std::abs(slope));
 }
 
 }  // namespace
@@ -54,7 +62,9 @@ std::optional<Estimate> measure_level(const StepView& view, const Interval& rang
       near.size() < static_cast<std::size_t>(view.options().min_points))
     return std::nullopt;
   constexpr double kFloor_m = 1e-4;
-  return robust_mean(near, kFloor_m);
+  Estimate level = robust_mean(near, kFloor_m);
+  level.sigma = std::hypot(level.sigma, kGrazing * wider_than_tread_m(view, level.value));
+  return level;
 }
 
 bool goes_on_before(const StepView& view, double level_m) {
@@ -70,6 +80,8 @@ bool goes_on_before(const StepView& view, double level_m) {
 std::optional<Estimate> inner_end(const StepView& view, double level_m) {
   constexpr double kBin_m = 0.02;
   constexpr double kThin = 0.5;
+  constexpr double kBeside = 3.0;  // reaches above and below the level
+  constexpr double kClear = 0.15;  // share of the depth next to the risers
   constexpr double kSigma_m = 0.01;
   const double sign = view.model().turn_rad > 0.0 ? 1.0 : -1.0;
   const double middle = view.sides().middle();
@@ -78,9 +90,14 @@ std::optional<Estimate> inner_end(const StepView& view, double level_m) {
   for (const StepPoint& p : view.points()) {
     const double out = sign * (p.v - middle);
     const double depth = view.depth_at(p.v);
-    if (out < 0.0 || depth < kBin_m || std::abs(p.z - level_m) > view.reach_m() || p.u < 0.0 || p.u > depth) continue;
+    const double off = std::abs(p.z - level_m);
+    if (out < 0.0 || depth < kBin_m || off > kBeside * view.reach_m() || p.u < kClear * depth ||
+        p.u > (1.0 - kClear) * depth)
+      continue;
     const auto bin = static_cast<std::size_t>(out / kBin_m);
-    if (bin < densities.size()) densities[bin] += 1.0 / depth;
+    // What goes on above and below is no tread but a column that stands close to its end.
+    const double share = off <= view.reach_m() ? 1.0 : -1.0 / (kBeside - 1.0);
+    if (bin < densities.size()) densities[bin] += share / depth;
   }
   const auto half_way = densities.begin() + static_cast<std::ptrdiff_t>((densities.size() + 1) / 2);
   const double thin = kThin * median({densities.begin(), half_way});

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "detector/step_measurement.hpp"
 
+#include <cmath>
+
 #include "detector/step_edges.hpp"
 #include "detector/step_front.hpp"
 #include "detector/step_level.hpp"
@@ -25,15 +27,21 @@ void measure_edges(const StepView& view, StepMeasurement& step) {
   if (step.front) {
     step.nosing = nosing_over_front(view, step.front->value);
     if (!view.sensor()) return;
-    step.right_end = end_of_front(view, view.sides().low);
-    step.left_end = end_of_front(view, view.sides().high);
+    if (const std::optional<EndMeasurement> end = end_of_front(view, view.sides().low)) {
+      step.right_end = end->place;
+      step.right_limit = end->limit;
+    }
+    if (const std::optional<EndMeasurement> end = end_of_front(view, view.sides().high)) {
+      step.left_end = end->place;
+      step.left_limit = end->limit;
+    }
   } else if (step.surface && view.stands_behind_nosing()) {
     if (const std::optional<EdgeMeasurement> edge = nosing_over_tread(view)) {
       step.nosing = edge->nosing;
       step.turn = edge->turn;
     }
-    step.right_end = end_of_tread(view, view.sides().low);
-    step.left_end = end_of_tread(view, view.sides().high);
+    if (const auto end = end_of_tread(view, view.sides().low)) step.right_end = end->place;
+    if (const auto end = end_of_tread(view, view.sides().high)) step.left_end = end->place;
   }
 }
 
@@ -63,10 +71,15 @@ StepMeasurement measure_step(const StairCorridor& corridor, const StairModel& mo
                              const StepMeasurementOptions& options) {
   const StepView view(corridor, model, sides, number, options);
   StepMeasurement step{.number = number, .frame = view.frame(), .middle_v = sides.middle()};
+  if (view.sensor())
+    step.distance_m = std::hypot(view.sensor()->u, sides.middle() - view.sensor()->v, view.sensor()->z);
   if (view.faces_front()) {
     if (const std::optional<FrontMeasurement> front = measure_front(view)) {
       step.front = front->place;
       step.turn = front->turn;
+      step.has_riser = front->has_riser;
+      step.is_bar = front->is_bar;
+      step.lip = measure_lip(view);
     }
   }
   measure_levels(view, step);

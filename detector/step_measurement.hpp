@@ -23,6 +23,7 @@ struct NosingSight {
   double along_u = 1.0;        ///< the line's unit direction
   double along_z = 0.0;        ///< likewise
   double sigma_m = 0.0;        ///< across the line
+  double distance_m = 0.0;     ///< of the nosing from the sensor; 0 without one
   bool without_sight = false;  ///< nobody knows the sensor: the highest points of a front, too high by a common amount
   bool over_a_front = true;  ///< seen from before the step, over the top of its front; else from behind, over its tread
 };
@@ -32,7 +33,11 @@ struct StepMeasurement {
   int number = 0;
   StepFrame frame;                    ///< where the model had the step when it was measured
   double middle_v = 0.0;              ///< of the sides [m]
+  double distance_m = 0.0;            ///< of the nosing from the sensor; 0 without one
   std::optional<Estimate> front;      ///< u of the riser, or of an open tread's front face, at `middle_v`
+  bool has_riser = false;             ///< the front fills the height of the step
+  bool is_bar = false;                ///< the front is that of the tread or its lip alone, which mixed pixels shift
+  std::optional<Estimate> lip;        ///< u of the upper end of the front, which an overhang sets before the rest
   std::optional<Estimate> turn;       ///< slope du/dv of that front or of the tread's edge [rad]
   std::optional<Estimate> surface;    ///< z of the tread
   bool is_landing = false;            ///< the surface goes on before where the nosing would be: no tread, but a floor
@@ -40,6 +45,8 @@ struct StepMeasurement {
   std::optional<NosingSight> nosing;
   std::optional<Estimate> right_end;  ///< v at which the line of sight leaves the front to the right
   std::optional<Estimate> left_end;   ///< likewise to the left
+  std::optional<double> right_limit;  ///< v of the first free line of sight beyond the right end
+  std::optional<double> left_limit;   ///< likewise to the left
 
   bool seen() const { return front || surface || underside; }
   int count() const;  ///< how many of fronts, surfaces and undersides there are

