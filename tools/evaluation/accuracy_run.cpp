@@ -64,7 +64,7 @@ AccuracyRun run_accuracy_case(const AccuracyCase& of, const Request& request, st
   const std::uint64_t seed = request.seed + index;
   const sim::Scene scene = sim::build_scene(of.scene(seed));
   const sim::ScannerOptions scanner = of.scanner(seed);
-  const double usual_s = request.settings.simulate.disk_period_s;
+  const double usual_s = request.settings.disk.period_s;
   const double period_s = of.longest_period_s > 0.0 ? std::min(of.longest_period_s, usual_s) : usual_s;
   const scan::MountOptions mount = scene.mount.value_or(request.settings.mount);
   const scan::PointCloud cloud = sim::simulate_sweep(scene, mount, scanner, {.disk_period_s = period_s, .threads = 1},
