@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "detector/beam_fit.hpp"
 #include "detector/stair_fit.hpp"
 #include "detector/step_measurement.hpp"
 #include "detector/step_offsets.hpp"
@@ -15,6 +16,7 @@ namespace stairway::detect {
 
 struct JointFitOptions {
   StepMeasurementOptions measurement;
+  BeamFitOptions beams;
   int passes = 6;            ///< of measuring all steps and fitting the model to them
   int max_unseen_steps = 2;  ///< the stairway ends after this many steps in a row of which no point is found
 

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "detector/stair_beams.hpp"
+#include "detector/stair_fit.hpp"
+#include "detector/step_offsets.hpp"
+
+namespace stairway::detect {
+
+struct BeamFitOptions {
+  StairBeamOptions beams;
+  double range_sigma_m = 0.010;  ///< white noise of one range [m], > 0
+  double max_misfit = 2.0;       ///< root of chi^2 per beam, above which the beams do not see what the model says
+};
+
+/// What is known before of a flight that is to be fitted.
+struct BeamFitStart {
+  StairModel model;  ///< straight
+  Interval sides;    ///< along left() from the middle line of the model [m]
+  int first = 0;     ///< lowest step that was seen
+  int last = 0;      ///< and highest
+  bool open_risers = false;
+  bool from_above = false;  ///< the sensor stands above the highest tread, which goes on as a floor
+};
+
+struct BeamFit {
+  StairModel model;
+  FitSigmas sigmas;
+  std::vector<StepOffset> offsets;  ///< of every step from the model
+  double range_bias_m = 0.0;        ///< that all ranges share, as far as the flight tells
+  double spot_rad = 0.0;            ///< full angle of the spot that explains the mixed pixels best
+  double misfit = 1.0;              ///< root of chi^2 per beam
+};
+
+/// Fits a straight flight to single beams: each measures the mean range of what its spot lies on, mixed pixels
+/// included.
+///
+/// A maximum-likelihood estimate with a robust kernel: the expected range of every beam follows from the profile that
+/// the model shows to the sensor and the share of the spot on each of its faces. Unknown are the place, heading, height
+/// and depth of the steps, overhang and thickness, a range bias common to all beams and the size of the spot.
+/// @pre the start is within about half a spot of the truth and the corridor knows where the sensor stood.
+/// @return nothing when too few beams see the flight or when they do not see what the model says.
+/// Cost: about 100 passes over the beams.
+std::optional<BeamFit> fit_beams(const StairCorridor& corridor, const BeamFitStart& start,
+                                 const BeamFitOptions& options);
+
+}  // namespace stairway::detect

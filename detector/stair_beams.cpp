@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detector/stair_beams.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "detector/statistics.hpp"
+
+namespace stairway::detect {
+namespace {
+
+constexpr double kUnsureSpots = 1.5;  // how far edges are taken to reach, in spots, while the model is not exact
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A beam and the faces it may have met.
+struct Candidate {
+  StairBeam beam;
+  double elevation_rad = 0.0;
+  double spread_rad = 0.0;
+  std::size_t first_face = 0;
+  std::size_t last_face = 0;
+  std::uint64_t key = 0;  // of its own, from its place alone
+};
+
+std::uint64_t scrambled(double a, double b, double c) {
+  std::uint64_t hash = 0;
+  for (const double value : {a, b, c}) {
+    hash ^= std::bit_cast<std::uint64_t>(value);
+    hash *= 0x9E3779B97F4A7C15ULL;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
+/// What is seen past the flight, by the gap one looks through and the direction aside.
+class Background {
+ public:
+  void add(const Candidate& c, std::span<const VisibleFace> faces) {
+    if (const auto key = key_of(c, faces)) seen_[*key].push_back({c.elevation_rad, std::hypot(c.beam.u, c.beam.z)});
+  }
+
+  // That of the beams whose elevation is nearest.
+  Backdrop at(const Candidate& c, std::span<const VisibleFace> faces) const {
+    constexpr std::size_t kNearest = 12;
+    constexpr std::size_t kFewest = 6;
+    const Backdrop unknown{.inverse_per_m = kNaN};
+    const auto key = key_of(c, faces);
+    const auto place = key ? seen_.find(*key) : seen_.end();
+    if (place == seen_.end() || place->second.size() < kFewest) return unknown;
+    std::vector<Seen> near = place->second;
+    const auto off = [&](const Seen& s) { return std::abs(s.elevation_rad - c.elevation_rad); };
+    const auto end = near.begin() + static_cast<std::ptrdiff_t>(std::min(kNearest, near.size()));
+    std::partial_sort(near.begin(), end, near.end(), [&](const Seen& a, const Seen& b) { return off(a) < off(b); });
+    near.erase(end, near.end());
+    std::erase_if(near, [&](const Seen& s) { return off(s) > kReachSpots * c.spread_rad; });
+    return near.size() < kFewest ? unknown : plane_through(near, c.elevation_rad);
+  }
+
+ private:
+  static constexpr double kReachSpots = 4.0;
+  static constexpr double kAside_rad = 0.02;
+  static constexpr double kEven_m = 0.05;
+  struct Seen {
+    double elevation_rad = 0.0;
+    double range_m = 0.0;
+  };
+  using Key = std::pair<std::size_t, int>;
+
+  static Backdrop plane_through(const std::vector<Seen>& seen, double elevation_rad) {
+    constexpr double kLeastSpread_rad = 1e-3;
+    const auto n = static_cast<Eigen::Index>(seen.size());
+    Eigen::ArrayXd x(n), y(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      x[i] = seen[static_cast<std::size_t>(i)].elevation_rad - elevation_rad;
+      y[i] = 1.0 / seen[static_cast<std::size_t>(i)].range_m;
+    }
+    const double spread = (x - x.mean()).square().sum();
+    const double slope =
+        spread > kLeastSpread_rad * kLeastSpread_rad ? ((x - x.mean()) * (y - y.mean())).sum() / spread : 0.0;
+    const Backdrop plane{y.mean() - slope * x.mean(), slope, elevation_rad};
+    const Eigen::ArrayXd off = 1.0 / (plane.inverse_per_m + slope * x) - 1.0 / y;
+    const bool is_even = std::sqrt(off.square().mean()) < kEven_m;
+    return is_even ? plane : Backdrop{.inverse_per_m = kNaN};
+  }
+
+  // The face past the flight that the spot touches.
+  static std::optional<Key> key_of(const Candidate& c, std::span<const VisibleFace> faces) {
+    for (std::size_t i = c.first_face; i <= c.last_face; ++i) {
+      if (faces[i].kind != VisibleFace::Kind::Beyond) continue;
+      const double aside = std::atan2(c.beam.v, std::hypot(c.beam.u, c.beam.z));
+      return Key{i, static_cast<int>(std::floor(aside / kAside_rad))};
+    }
+    return std::nullopt;
+  }
+
+  std::map<Key, std::vector<Seen>> seen_;
+};
+
+class BeamSelection {
+ public:
+  BeamSelection(const StepPoint& sensor, std::span<const VisibleFace> faces, const Interval& sides,
+                const StairBeamOptions& options)
+      : sensor_(sensor), faces_(faces), sides_(sides), options_(options) {}
+
+  void look_at(const StepPoint& p) {
+    Candidate c{.beam = {.u = p.u - sensor_.u, .v = p.v - sensor_.v, .z = p.z - sensor_.z}};
+    const double plane_m = std::hypot(c.beam.u, c.beam.z);
+    const double range_m = std::hypot(plane_m, c.beam.v);
+    constexpr double kAlongNosing = 0.2;  // beams that run along the nosings tell little
+    if (plane_m < kAlongNosing * range_m) return;
+    c.elevation_rad = std::atan2(c.beam.z, c.beam.u);
+    c.spread_rad = options_.spot.radius_rad * range_m / plane_m;
+    find_faces(c);
+    const bool is_single = c.first_face == c.last_face;
+    const VisibleFace::Kind kind = faces_[c.first_face].kind;
+    if (is_single && kind == VisibleFace::Kind::Unknown) return;
+    if (is_single && kind == VisibleFace::Kind::Beyond) return background_.add(c, faces_);
+    if (is_in_the_way(c, plane_m)) obstacles_.insert(cell_of(c));
+    if (!passes_between_sides(c, plane_m)) return;
+    c.key = scrambled(p.u, p.v, p.z);
+    (is_single ? on_planes_ : on_edges_).push_back(c);
+  }
+
+  std::vector<StairBeam> beams() {
+    std::vector<StairBeam> beams;
+    take(on_edges_, options_.most_edge_beams, beams);
+    take(on_planes_, options_.most_plane_beams, beams);
+    return beams;
+  }
+
+ private:
+  void find_faces(Candidate& c) const {
+    const double reach = kUnsureSpots * c.spread_rad;
+    const auto first =
+        std::lower_bound(faces_.begin(), faces_.end(), c.elevation_rad - reach,
+                         [](const VisibleFace& face, double elevation) { return face.end_rad < elevation; });
+    c.first_face = std::min(static_cast<std::size_t>(first - faces_.begin()), faces_.size() - 1);
+    c.last_face = c.first_face;
+    while (c.last_face + 1 < faces_.size() && faces_[c.last_face + 1].begin_rad < c.elevation_rad + reach)
+      ++c.last_face;
+    c.beam.first_step = std::numeric_limits<int>::max();
+    c.beam.last_step = std::numeric_limits<int>::min();
+    for (std::size_t i = c.first_face; i <= c.last_face; ++i) {
+      c.beam.first_step = std::min(c.beam.first_step, faces_[i].step);
+      c.beam.last_step = std::max(c.beam.last_step, faces_[i].step);
+    }
+  }
+
+  bool passes_between_sides(const Candidate& c, double plane_m) const {
+    constexpr double kClear_m = 0.02;
+    for (std::size_t i = c.first_face; i <= c.last_face; ++i) {
+      const VisibleFace& face = faces_[i];
+      if (face.kind == VisibleFace::Kind::Beyond || face.kind == VisibleFace::Kind::Unknown) continue;
+      const double distance = face.distance_m(std::clamp(c.elevation_rad, face.begin_rad, face.end_rad));
+      const double v = sensor_.v + c.beam.v * distance / plane_m;
+      const double margin = kClear_m + options_.spot.radius_rad * distance;
+      if (v < sides_.low + margin || v > sides_.high - margin) return false;
+    }
+    return true;
+  }
+
+  // Shorter than anything there.
+  bool is_in_the_way(const Candidate& c, double plane_m) const {
+    constexpr double kBefore_m = 0.06;
+    for (std::size_t i = c.first_face; i <= c.last_face; ++i) {
+      const VisibleFace& face = faces_[i];
+      if (face.kind == VisibleFace::Kind::Beyond || face.kind == VisibleFace::Kind::Unknown) continue;
+      if (plane_m > face.distance_m(std::clamp(c.elevation_rad, face.begin_rad, face.end_rad)) - kBefore_m)
+        return false;
+    }
+    return true;
+  }
+
+  using Cell = std::pair<int, int>;
+  Cell cell_of(const Candidate& c) const {
+    const double size_rad = std::max(2.0 * options_.spot.radius_rad, 5e-3);
+    const double aside_rad = std::atan2(c.beam.v, std::hypot(c.beam.u, c.beam.z));
+    return {static_cast<int>(std::floor(c.elevation_rad / size_rad)),
+            static_cast<int>(std::floor(aside_rad / size_rad))};
+  }
+  bool is_beside_obstacle(const Candidate& c) const {
+    const Cell cell = cell_of(c);
+    for (int up = -1; up <= 1; ++up)
+      for (int aside = -1; aside <= 1; ++aside)
+        if (obstacles_.contains({cell.first + up, cell.second + aside})) return true;
+    return false;
+  }
+
+  void take(std::vector<Candidate>& candidates, int most, std::vector<StairBeam>& beams) const {
+    std::erase_if(candidates, [&](const Candidate& c) { return is_beside_obstacle(c); });
+    const std::size_t stride = 1 + candidates.size() / static_cast<std::size_t>(most);
+    for (Candidate& c : candidates) {
+      if (c.key % stride != 0) continue;
+      c.beam.backdrop = background_.at(c, faces_);
+      beams.push_back(c.beam);
+    }
+  }
+
+  StepPoint sensor_;
+  std::span<const VisibleFace> faces_;
+  Interval sides_;
+  const StairBeamOptions& options_;
+  Background background_;
+  std::set<Cell> obstacles_;
+  std::vector<Candidate> on_edges_;
+  std::vector<Candidate> on_planes_;
+};
+
+}  // namespace
+
+std::vector<StairBeam> select_beams(const StairCorridor& corridor, const StepFrame& frame, const StepPoint& sensor,
+                                    std::span<const VisibleFace> faces, const Interval& sides,
+                                    const StairBeamOptions& options) {
+  if (faces.empty()) return {};
+  BeamSelection selection(sensor, faces, sides, options);
+  for (const Eigen::Vector3d& point : corridor.points()) selection.look_at(frame.to_step(point));
+  return selection.beams();
+}
+
+}  // namespace stairway::detect
