@@ -34,7 +34,7 @@ struct Flight {
 };
 
 // A forgiving kernel first.
-constexpr std::array kKernels_sigmas{12.0, 9.0, 7.0, 5.0, 5.0};
+constexpr std::array kKernels_sigmas{12.0, 9.0, 7.0, 5.0};
 
 // Tukey's biweight.
 double weight_of(double residual, double kernel_sigmas) {
@@ -86,23 +86,27 @@ class BeamFitter {
     if (beams_.size() < kFewestBeams) return std::nullopt;
     close_in();
     if (!start_.open_risers) look_for_overhang();
-    const double misfit = robust_deviation(residuals_of_known(), 0.0);
-    if (!flight_.unknowns.allFinite() || misfit > options_.max_misfit) return std::nullopt;
-    BeamFit fit{.model = model(), .misfit = misfit};
-    const double inflation = std::max(1.0, misfit);
-    fit.sigmas = {.height_m = inflation * sigmas_[kRise],
-                  .depth_m = inflation * sigmas_[kDepth],
-                  .heading_rad = inflation * sigmas_[kHeading]};
+    BeamFit fit{.model = model(), .open_risers = start_.open_risers};
+    fit.misfit = robust_deviation(residuals_of_known(), 0.0);
+    fit.explained = explained();
+    if (!flight_.unknowns.allFinite() || fit.misfit > options_.max_misfit || fit.explained < options_.min_explained)
+      return std::nullopt;
     fit.range_bias_m = flight_.unknowns[kBias];
     fit.spot_rad = 2.0 * flight_.unknowns[kSpot];
+    const Unknowns sigmas = std::max(1.0, fit.misfit) * sigmas_;
     for (const double kernel : kKernels_sigmas) fit_steps(kernel);
-    fit.offsets = offsets(inflation);
+    fit.offsets = offsets(std::max(1.0, fit.misfit));
+    fit.sigmas = sigmas_with_uneven_steps(sigmas, fit.offsets);
     return fit;
   }
 
  private:
   void close_in() {
+    constexpr int kMostRounds = 12;
+    constexpr double kSettled = 0.05;  // sigmas
     for (const double kernel : kKernels_sigmas) fit_flight(kernel);
+    for (int round = 0; round < kMostRounds && fit_flight(kKernels_sigmas.back()) > kSettled; ++round) {
+    }
   }
 
   // Far away a lip can hardly be told from a nosing that lies elsewhere: it must explain what is seen clearly better,
@@ -135,7 +139,8 @@ class BeamFitter {
                             .thickness_m = flight.unknowns[kThickness],
                             .open_risers = start_.open_risers,
                             .step_height_m = 0.5 * start_.model.height_m,
-                            .last_tread_m = start_.from_above ? kFloor_m : 0.0};
+                            .last_tread_m = start_.from_above ? kFloor_m : 0.0,
+                            .goes_on_below = start_.from_above};
     for (Eigen::Index i = 0; i < flight.ahead.size(); ++i) {
       const auto number = static_cast<double>(i);
       shape.nosings.emplace_back(
@@ -177,6 +182,8 @@ class BeamFitter {
     const auto over_sigma = [&](double off_m) {
       return off_m * scale / std::hypot(options_.range_sigma_m, kUnevenSpot * echo.spread_m * scale);
     };
+    // What lies past the flight is not what is fitted.
+    if (echo.is_past) return {.range = 0.0, .share = measured_m < echo.range_m - kAnyOther_m ? 1.0 / kShareSigma : 0.0};
     if (!echo.is_split) return {.range = over_sigma(measured_m - echo.range_m)};
     const bool is_near = std::abs(measured_m - echo.near_m) < std::abs(measured_m - echo.far_m);
     if (std::abs(measured_m - (is_near ? echo.near_m : echo.far_m)) > kAnyOther_m) return {};
@@ -196,6 +203,42 @@ class BeamFitter {
     Eigen::VectorXd rows(2 * static_cast<Eigen::Index>(beams_.size()));
     for (std::size_t i = 0; i < beams_.size(); ++i) put_residual(i, view, rows);
     return rows;
+  }
+
+  double explained() const {
+    const Eigen::VectorXd all = residuals(flight_);
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < all.size(); i += 2)
+      if (std::isfinite(all[i])) sum += weight_of(std::hypot(all[i], all[i + 1]), kKernels_sigmas.back());
+    return sum / static_cast<double>(beams_.size());
+  }
+
+  // Steps lie where they do not only by chance of the beams: what their offsets scatter by beyond that counts once for
+  // every step, however many beams it shows.
+  FitSigmas sigmas_with_uneven_steps(const Unknowns& sigmas, const std::vector<StepOffset>& offsets) const {
+    const double up_m = unevenness(offsets, &StepOffset::up);
+    const double ahead_m = unevenness(offsets, &StepOffset::ahead);
+    const auto n = static_cast<double>(offsets.size());
+    const double slope = std::sqrt(12.0 / std::max(6.0, n * (n * n - 1.0)));  // of a line through n evenly spaced
+    const double across = std::sqrt(12.0 / n) / start_.sides.length();
+    return {.height_m = std::hypot(sigmas[kRise], slope * up_m),
+            .depth_m = std::hypot(sigmas[kDepth], slope * ahead_m),
+            .heading_rad = std::hypot(sigmas[kHeading], across * ahead_m)};
+  }
+
+  double unevenness(const std::vector<StepOffset>& offsets, std::optional<Estimate> StepOffset::*part) const {
+    constexpr double kSpotShare = 0.02;  // what the place of an edge in the spot may be off by from step to step
+    double excess = 0.0;
+    double count = 0.0;
+    for (const StepOffset& offset : offsets) {
+      const std::optional<Estimate>& off = offset.*part;
+      if (!off) continue;
+      excess += std::min(off->value * off->value, kSurelyUneven_m * kSurelyUneven_m) - off->sigma * off->sigma;
+      count += 1.0;
+    }
+    const double distance_m = std::hypot(sensor_.u, sensor_.v, sensor_.z);
+    const double floor_m = kSpotShare * usual_[kSpot] * distance_m;
+    return std::hypot(floor_m, std::sqrt(std::max(0.0, excess / std::max(1.0, count))));
   }
 
   std::vector<double> residuals_of_known() const {
@@ -221,10 +264,20 @@ class BeamFitter {
     Eigen::VectorXd gradient;
   };
 
+  // Levenberg and Marquardt: ever shorter and steeper steps until one is `taken`.
+  template <typename Taken>
+  static void damped_descent(const Normal& normal, const Taken& taken) {
+    for (const double damping : {0.0, 0.03, 0.3, 3.0, 30.0}) {
+      Eigen::MatrixXd damped = normal.information;
+      damped.diagonal() *= 1.0 + damping;
+      if (taken(-damped.ldlt().solve(normal.gradient))) return;
+    }
+  }
+
   // A row that jumps where it is derived says nothing about what lies beyond the jump.
   static void add_rows(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, double kernel_sigmas, double small,
                        Normal& normal) {
-    constexpr double kJump = 1.0;
+    constexpr double kJump = 3.0;
     for (Eigen::Index i = 0; i < r.size(); ++i) {
       if (!std::isfinite(r[i]) || !J.row(i).allFinite() || J.row(i).cwiseAbs().maxCoeff() * small > kJump) continue;
       const double weight = weight_of(r[i], kernel_sigmas);
@@ -234,10 +287,9 @@ class BeamFitter {
     normal.information = normal.information.selfadjointView<Eigen::Lower>();
   }
 
-  // One step of Gauss and Newton, as far towards its solution as the robust cost falls.
-  void fit_flight(double kernel_sigmas) {
+  // One step of Gauss and Newton, as far towards its solution as the robust cost falls. Returns how far, in sigmas.
+  double fit_flight(double kernel_sigmas) {
     constexpr double kSmall = 1e-4;
-    constexpr int kHalvings = 5;
     const Eigen::VectorXd r = residuals(flight_);
     Eigen::MatrixXd J(r.size(), static_cast<Eigen::Index>(kUnknowns));
     Normal normal{Eigen::MatrixXd::Zero(kUnknowns, kUnknowns), Eigen::VectorXd::Zero(kUnknowns)};
@@ -256,20 +308,22 @@ class BeamFitter {
     }
     add_rows(r, J, kernel_sigmas, 2.0 * kSmall, normal);
     const Eigen::Map<const Unknowns> scale(kScale.data());
-    Unknowns change = -scale.cwiseProduct(Unknowns(normal.information.ldlt().solve(normal.gradient)));
-    for (int i = 0; i < kHalvings; ++i, change *= 0.4) {
-      const Flight next = changed(change);
-      if (gain_of(residuals(next), r, kernel_sigmas) < 0.0) continue;
+    Unknowns moved = Unknowns::Zero();
+    damped_descent(normal, [&](const Eigen::VectorXd& change) {
+      const Unknowns scaled = scale.cwiseProduct(Unknowns(change));
+      const Flight next = changed(scaled);
+      if (gain_of(residuals(next), r, kernel_sigmas) < 0.0) return false;
       flight_ = next;
-      break;
-    }
+      moved = scaled;
+      return true;
+    });
     sigmas_ = scale.cwiseProduct(Unknowns(normal.information.inverse().diagonal().cwiseMax(0.0).cwiseSqrt()));
+    return moved.cwiseQuotient(sigmas_).cwiseAbs().maxCoeff();
   }
 
   // Every step on its own, the flight as a whole held; a step's faces and edges are seen by its own beams alone.
   void fit_steps(double kernel_sigmas) {
     constexpr double kSmall_m = 1e-4;
-    constexpr int kHalvings = 5;
     const Eigen::Index steps = flight_.ahead.size();
     constexpr double kPriorInformation = 1.0 / (kSurelyUneven_m * kSurelyUneven_m);
     Normal normal{kPriorInformation * Eigen::MatrixXd::Identity(2 * steps, 2 * steps), Eigen::VectorXd(2 * steps)};
@@ -290,15 +344,14 @@ class BeamFitter {
       }
     }
     add_rows(r, J, kernel_sigmas, 2.0 * kSmall_m, normal);
-    Eigen::VectorXd change = -normal.information.ldlt().solve(normal.gradient);
-    for (int i = 0; i < kHalvings; ++i, change *= 0.4) {
+    damped_descent(normal, [&](const Eigen::VectorXd& change) {
       Flight next = flight_;
       next.ahead += change.head(steps);
       next.up += change.tail(steps);
-      if (gain_of(residuals(next), r, kernel_sigmas) < 0.0) continue;
+      if (gain_of(residuals(next), r, kernel_sigmas) < 0.0) return false;
       flight_ = next;
-      break;
-    }
+      return true;
+    });
     step_sigmas_ = normal.information.inverse().diagonal().cwiseMax(0.0).cwiseSqrt();
   }
 
@@ -353,8 +406,14 @@ class BeamFitter {
 
 std::optional<BeamFit> fit_beams(const StairCorridor& corridor, const BeamFitStart& start,
                                  const BeamFitOptions& options) {
+  constexpr double kWell = 0.75;
   if (!corridor.sensor() || start.model.is_spiral() || start.last < start.first) return std::nullopt;
-  return BeamFitter(corridor, start, options).run();
+  std::optional<BeamFit> fit = BeamFitter(corridor, start, options).run();
+  if (fit && fit->explained > kWell) return fit;
+  BeamFitStart other = start;
+  other.open_risers = !start.open_risers;
+  std::optional<BeamFit> otherwise = BeamFitter(corridor, other, options).run();
+  return otherwise && (!fit || otherwise->explained > fit->explained) ? otherwise : fit;
 }
 
 }  // namespace stairway::detect

@@ -15,16 +15,17 @@ struct BeamFitOptions {
   StairBeamOptions beams;
   double range_sigma_m = 0.010;  ///< white noise of one range [m], > 0
   double max_misfit = 2.0;       ///< root of chi^2 per beam, above which the beams do not see what the model says
+  double min_explained = 0.2;    ///< share of the beams that must have measured what the model says
 };
 
 /// What is known before of a flight that is to be fitted.
 struct BeamFitStart {
-  StairModel model;  ///< straight
-  Interval sides;    ///< along left() from the middle line of the model [m]
-  int first = 0;     ///< lowest step that was seen
-  int last = 0;      ///< and highest
-  bool open_risers = false;
-  bool from_above = false;  ///< the sensor stands above the highest tread, which goes on as a floor
+  StairModel model;          ///< straight
+  Interval sides;            ///< along left() from the middle line of the model [m]
+  int first = 0;             ///< lowest step that was seen
+  int last = 0;              ///< and highest
+  bool open_risers = false;  ///< more likely than not; where the beams contradict, the other is tried, too
+  bool from_above = false;   ///< the sensor stands above the highest tread, which goes on as a floor
 };
 
 struct BeamFit {
@@ -34,6 +35,8 @@ struct BeamFit {
   double range_bias_m = 0.0;        ///< that all ranges share, as far as the flight tells
   double spot_rad = 0.0;            ///< full angle of the spot that explains the mixed pixels best
   double misfit = 1.0;              ///< root of chi^2 per beam
+  double explained = 0.0;           ///< share of the beams that measured what the model says
+  bool open_risers = false;
 };
 
 /// Fits a straight flight to single beams: each measures the mean range of what its spot lies on, mixed pixels

@@ -198,7 +198,7 @@ class JointFitter {
       if (pass + 1 == options_.passes) fit_.offsets = offsets();
       if (!fit_sides()) return std::nullopt;
     }
-    look_at_beams();
+    refine_by_beams();
     return fit_;
   }
 
@@ -321,7 +321,7 @@ class JointFitter {
                    .heading_rad = solution.sigmas[kHeading]};
   }
 
-  void look_at_beams() {
+  void refine_by_beams() {
     if (fit_.model.is_spiral() || !corridor_.sensor()) return;
     const BeamFitStart start{.model = fit_.model,
                              .sides = fit_.sides,
@@ -330,15 +330,10 @@ class JointFitter {
                              .open_risers = !has_risers(),
                              .from_above = view_ == View::FromAbove};
     const std::optional<BeamFit> beams = fit_beams(corridor_, start, options_.beams);
-    if (getenv("DBG")) {
-      if (!beams) fprintf(stderr, "no beam fit\n");
-      else fprintf(stderr, "beams: misfit %.2f bias %.1f spot %.2f open %d dh %.2f dd %.2f dhd %.3f ov %.1f->%.1f\n", beams->misfit, 1e3*beams->range_bias_m, 1e3*beams->spot_rad, start.open_risers, 1e3*(beams->model.height_m-fit_.model.height_m),1e3*(beams->model.depth_m-fit_.model.depth_m),57.3*std::acos(std::min(1.0,beams->model.descent.dot(fit_.model.descent))),1e3*fit_.model.overhang_m,1e3*beams->model.overhang_m);
-    }
     if (!beams) return;
     fit_.model = beams->model;
     fit_.sigmas = beams->sigmas;
     fit_.offsets = beams->offsets;
-    if (getenv("DBG")) for (auto& o: fit_.offsets) fprintf(stderr, " [%d a %.2f/%.2f u %.2f/%.2f]\n", o.number, o.ahead?1e3*o.ahead->value:NAN, o.ahead?1e3*o.ahead->sigma:NAN, o.up?1e3*o.up->value:NAN, o.up?1e3*o.up->sigma:NAN);
     measure(0);
     fit_sides();
   }

@@ -101,10 +101,11 @@ SpotEcho echo_of(std::span<const VisibleFace> faces, double elevation_rad, doubl
   };
   if (face == faces.end() || face->kind == VisibleFace::Kind::Unknown) return {};
   if (face->end_rad >= high) {
-    if (face->kind == VisibleFace::Kind::Beyond) return {};
-    return {.is_known = true, .range_m = face->distance_m(elevation_rad)};
+    const double range = range_on(*face, elevation_rad);
+    return {.is_known = std::isfinite(range), .is_past = face->kind == VisibleFace::Kind::Beyond, .range_m = range};
   }
   Parts parts;
+  bool misses = true;
   double before = 0.0;
   for (; face != faces.end() && face->begin_rad < high; ++face) {
     const double end = std::min(face->end_rad, high);
@@ -116,7 +117,9 @@ SpotEcho echo_of(std::span<const VisibleFace> faces, double elevation_rad, doubl
     const bool is_known = face->kind != VisibleFace::Kind::Unknown && range > 0.0 && std::isfinite(range);
     if (!is_known || parts.count == kMostParts) return {};
     parts.list[parts.count++] = {range, share};
+    misses = misses && face->kind == VisibleFace::Kind::Beyond;
   }
+  if (misses && parts.count > 0) return {.is_known = true, .is_past = true, .range_m = parts.list[0].range_m};
   return parts.count == 0 ? SpotEcho{} : echo_of_groups(group(parts, pulse_separation_m));
 }
 

@@ -27,6 +27,7 @@ struct Backdrop {
 struct SpotEcho {
   bool is_known = false;  ///< the spot lies on known faces, and it is certain which of them answer together
   bool is_mixed = false;  ///< on more than one
+  bool is_past = false;   ///< it misses the flight
   double range_m = 0.0;   ///< of the echo of the larger part, within the plane of the profile
   double spread_m = 0.0;  ///< how far apart in range those lie that it is mixed of
   /// Where surfaces are too far apart for one echo: the share of the nearer ones, and the echo of either.
@@ -40,7 +41,6 @@ struct SpotEcho {
 ///
 /// The spot is an evenly lit disk: its share between two elevations follows from the area between two chords.
 /// @param faces     visible_faces()
-/// @return not known where only what lies past the flight is met, which says nothing about it.
 /// Cost: O(log n) in the faces.
 SpotEcho echo_of(std::span<const VisibleFace> faces, double elevation_rad, double spread_rad, const Backdrop& backdrop,
                  double pulse_separation_m);

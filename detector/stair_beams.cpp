@@ -65,7 +65,7 @@ class Background {
   }
 
  private:
-  static constexpr double kReachSpots = 4.0;
+  static constexpr double kReachSpots = 3.0;
   static constexpr double kAside_rad = 0.02;
   static constexpr double kEven_m = 0.05;
   struct Seen {

@@ -64,23 +64,26 @@ class ProfileSegments {
     if (i == 0) add_upright(i, nosing.x() + shape_.overhang_m, foot - kDeep_m, foot, Kind::Unknown);
   }
 
-  // How far a board reaches back and how thick the landing is nobody knows: one sees their fronts and undersides.
+  // How far a board reaches back and how thick the landing is nobody knows.
   void add_board(std::size_t i) {
     constexpr double kCertain = 0.8;  // share of a board that is there
+    constexpr double kReach_m = 0.06;
     const Eigen::Vector2d& nosing = shape_.nosings[i];
-    const double end = tread_end_u(i);
-    const double certain = nosing.x() + kCertain * (end - nosing.x());
     const double bottom = nosing.y() - shape_.thickness_m;
-    add_level(i, nosing.y(), nosing.x(), end);
     if (is_last(i)) {
+      add_level(i, nosing.y(), nosing.x(), nosing.x() + shape_.last_tread_m);
       add_upright(i, nosing.x(), 0.5 * (bottom + nosing.y()), nosing.y());
       add_upright(i, nosing.x(), nosing.y() - kLandingSlab_m, 0.5 * (bottom + nosing.y()), Kind::Unknown);
       return;
     }
+    const double next = shape_.nosings[i + 1].x();
+    const double certain = nosing.x() + kCertain * (next - nosing.x());
     add_upright(i, nosing.x(), bottom, nosing.y());
-    add_level(i, bottom, nosing.x(), certain);
-    add_level(i, bottom, certain, end, Kind::Unknown);
-    add_upright(i, end, bottom, nosing.y(), Kind::Unknown);
+    for (const double z : {bottom, nosing.y()}) {
+      add_level(i, z, nosing.x(), certain);
+      add_level(i, z, certain, next + kReach_m, Kind::Unknown);
+    }
+    add_upright(i, next + kReach_m, bottom, nosing.y(), Kind::Unknown);
   }
 
   static constexpr double kDeep_m = 10.0;
@@ -141,6 +144,8 @@ std::vector<VisibleFace> visible_faces(const StairProfileShape& shape, const Eig
       face.kind = nearest->kind;
       face.place_m = nearest->place_m;
       face.step = edge = nearest->step;
+    } else if (edge < 0 && shape.goes_on_below) {
+      face.kind = Kind::Unknown;
     }
     const bool goes_on = !faces.empty() && faces.back().kind == face.kind && faces.back().step == face.step &&
                          faces.back().place_m == face.place_m;

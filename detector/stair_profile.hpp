@@ -17,6 +17,7 @@ struct StairProfileShape {
   bool open_risers = false;              ///< one looks through between the treads
   double step_height_m = 0.17;           ///< how far the lowest riser is taken to go down
   double last_tread_m = 0.0;             ///< how far the highest tread is known to go on
+  bool goes_on_below = false;  ///< what one sees past the lowest nosing are further steps: unknown, not past the flight
 };
 
 /// A part of the profile that the sensor sees between two elevations.
