@@ -67,6 +67,12 @@ class BeamFitter {
     sensor_ = frame_.to_step(*corridor.sensor());
     const auto steps = static_cast<Eigen::Index>(start.last - start.first + 1);
     flight_.ahead = flight_.up = Eigen::VectorXd::Zero(steps);
+    for (const StepOffset& offset : start.offsets) {
+      const Eigen::Index i = offset.number - start.first;
+      if (i < 0 || i >= steps) continue;
+      if (offset.ahead) flight_.ahead[i] = std::clamp(offset.ahead->value, -kSurelyUneven_m, kSurelyUneven_m);
+      if (offset.up) flight_.up[i] = std::clamp(offset.up->value, -kSurelyUneven_m, kSurelyUneven_m);
+    }
     flight_.unknowns[kThickness] = start.open_risers && start.model.tread_thickness_m > kLeastThickness_m
                                        ? start.model.tread_thickness_m
                                        : kUsualThickness_m;
@@ -86,7 +92,7 @@ class BeamFitter {
     if (beams_.size() < kFewestBeams) return std::nullopt;
     close_in();
     if (!start_.open_risers) look_for_overhang();
-    BeamFit fit{.model = model(), .open_risers = start_.open_risers};
+    BeamFit fit{.model = model()};
     fit.misfit = robust_deviation(residuals_of_known(), 0.0);
     fit.explained = explained();
     if (!flight_.unknowns.allFinite() || fit.misfit > options_.max_misfit || fit.explained < options_.min_explained)
@@ -94,6 +100,9 @@ class BeamFitter {
     fit.range_bias_m = flight_.unknowns[kBias];
     fit.spot_rad = 2.0 * flight_.unknowns[kSpot];
     const Unknowns sigmas = std::max(1.0, fit.misfit) * sigmas_;
+    fit.shape = shape(flight_);
+    for (Eigen::Vector2d& nosing : fit.shape.nosings)
+      nosing -= Eigen::Vector2d(flight_.unknowns[kAlong], flight_.unknowns[kUp]);
     for (const double kernel : kKernels_sigmas) fit_steps(kernel);
     fit.offsets = offsets(std::max(1.0, fit.misfit));
     fit.sigmas = sigmas_with_uneven_steps(sigmas, fit.offsets);
@@ -226,8 +235,13 @@ class BeamFitter {
             .heading_rad = std::hypot(sigmas[kHeading], across * ahead_m)};
   }
 
+  // What the place of an edge in the spot may be off by from step to step.
+  double uneven_floor_m() const {
+    constexpr double kSpotShare = 0.02;
+    return kSpotShare * usual_[kSpot] * std::hypot(sensor_.u, sensor_.v, sensor_.z);
+  }
+
   double unevenness(const std::vector<StepOffset>& offsets, std::optional<Estimate> StepOffset::*part) const {
-    constexpr double kSpotShare = 0.02;  // what the place of an edge in the spot may be off by from step to step
     double excess = 0.0;
     double count = 0.0;
     for (const StepOffset& offset : offsets) {
@@ -236,9 +250,7 @@ class BeamFitter {
       excess += std::min(off->value * off->value, kSurelyUneven_m * kSurelyUneven_m) - off->sigma * off->sigma;
       count += 1.0;
     }
-    const double distance_m = std::hypot(sensor_.u, sensor_.v, sensor_.z);
-    const double floor_m = kSpotShare * usual_[kSpot] * distance_m;
-    return std::hypot(floor_m, std::sqrt(std::max(0.0, excess / std::max(1.0, count))));
+    return std::hypot(uneven_floor_m(), std::sqrt(std::max(0.0, excess / std::max(1.0, count))));
   }
 
   std::vector<double> residuals_of_known() const {
@@ -366,7 +378,9 @@ class BeamFitter {
     constexpr double kUnseen = 0.5;  // of what is known beforehand
     const Eigen::Index steps = flight_.ahead.size();
     const auto estimate = [&](double value, double sigma) {
-      return sigma < kUnseen * kSurelyUneven_m ? std::optional(Estimate{value, inflation * sigma}) : std::nullopt;
+      return sigma < kUnseen * kSurelyUneven_m
+                 ? std::optional(Estimate{value, std::hypot(inflation * sigma, uneven_floor_m())})
+                 : std::nullopt;
     };
     std::vector<StepOffset> result;
     for (Eigen::Index i = 0; i < steps; ++i)
@@ -406,14 +420,29 @@ class BeamFitter {
 
 std::optional<BeamFit> fit_beams(const StairCorridor& corridor, const BeamFitStart& start,
                                  const BeamFitOptions& options) {
-  constexpr double kWell = 0.75;
   if (!corridor.sensor() || start.model.is_spiral() || start.last < start.first) return std::nullopt;
-  std::optional<BeamFit> fit = BeamFitter(corridor, start, options).run();
-  if (fit && fit->explained > kWell) return fit;
-  BeamFitStart other = start;
-  other.open_risers = !start.open_risers;
-  std::optional<BeamFit> otherwise = BeamFitter(corridor, other, options).run();
-  return otherwise && (!fit || otherwise->explained > fit->explained) ? otherwise : fit;
+  const auto fit_as = [&](bool open_risers, bool is_regular) {
+    BeamFitStart as = start;
+    as.open_risers = open_risers;
+    if (is_regular) as.offsets.clear();
+    return BeamFitter(corridor, as, options).run();
+  };
+  // What explains more beams is true; what is unusual must explain clearly more.
+  constexpr double kWell = 0.75;
+  constexpr double kClearlyMore = 0.03;
+  const auto explained = [](const std::optional<BeamFit>& fit) { return fit ? fit->explained : 0.0; };
+  bool open_risers = start.open_risers;
+  std::optional<BeamFit> best = fit_as(open_risers, true);
+  if (explained(best) < kWell) {
+    std::optional<BeamFit> other = fit_as(!open_risers, true);
+    if (explained(other) > explained(best)) {
+      best = std::move(other);
+      open_risers = !open_risers;
+    }
+  }
+  if (start.offsets.empty() || (explained(best) > kWell && !are_irregular(best->offsets))) return best;
+  std::optional<BeamFit> irregular = fit_as(open_risers, false);
+  return explained(irregular) > explained(best) + kClearlyMore ? irregular : best;
 }
 
 }  // namespace stairway::detect

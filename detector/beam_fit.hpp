@@ -20,12 +20,13 @@ struct BeamFitOptions {
 
 /// What is known before of a flight that is to be fitted.
 struct BeamFitStart {
-  StairModel model;          ///< straight
-  Interval sides;            ///< along left() from the middle line of the model [m]
-  int first = 0;             ///< lowest step that was seen
-  int last = 0;              ///< and highest
-  bool open_risers = false;  ///< more likely than not; where the beams contradict, the other is tried, too
-  bool from_above = false;   ///< the sensor stands above the highest tread, which goes on as a floor
+  StairModel model;                 ///< straight
+  Interval sides;                   ///< along left() from the middle line of the model [m]
+  int first = 0;                    ///< lowest step that was seen
+  int last = 0;                     ///< and highest
+  std::vector<StepOffset> offsets;  ///< of single steps from the model; none of a regular flight
+  bool open_risers = false;         ///< more likely than not; where the beams contradict, the other is tried, too
+  bool from_above = false;          ///< the sensor stands above the highest tread, which goes on as a floor
 };
 
 struct BeamFit {
@@ -36,7 +37,7 @@ struct BeamFit {
   double spot_rad = 0.0;            ///< full angle of the spot that explains the mixed pixels best
   double misfit = 1.0;              ///< root of chi^2 per beam
   double explained = 0.0;           ///< share of the beams that measured what the model says
-  bool open_risers = false;
+  StairProfileShape shape;          ///< that it shows, in the axes of its lowest step
 };
 
 /// Fits a straight flight to single beams: each measures the mean range of what its spot lies on, mixed pixels

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "detector/beam_fit.hpp"
+#include "detector/flight_ends.hpp"
 #include "detector/statistics.hpp"
 #include "detector/step_ends.hpp"
 
@@ -327,6 +328,7 @@ class JointFitter {
                              .sides = fit_.sides,
                              .first = fit_.first,
                              .last = fit_.last,
+                             .offsets = are_irregular(fit_.offsets) ? fit_.offsets : std::vector<StepOffset>{},
                              .open_risers = !has_risers(),
                              .from_above = view_ == View::FromAbove};
     const std::optional<BeamFit> beams = fit_beams(corridor_, start, options_.beams);
@@ -335,6 +337,11 @@ class JointFitter {
     fit_.sigmas = beams->sigmas;
     fit_.offsets = beams->offsets;
     measure(0);
+    const StepFrame frame = fit_.model.step(start.first);
+    const StepPoint sensor = frame.to_step(*corridor_.sensor());
+    flight_ends_ = find_flight_ends(corridor_, frame, sensor, visible_faces(beams->shape, {sensor.u, sensor.z}),
+                                    fit_.sides, options_.beams.beams.spot, options_.beams.range_sigma_m,
+                                    start.from_above ? start.last - start.first : -1);
     fit_sides();
   }
 
@@ -356,8 +363,8 @@ class JointFitter {
       if (step.right_limit) right_limits.push_back(*step.right_limit);
       if (step.left_limit) left_limits.push_back(*step.left_limit);
     }
-    const std::optional<Estimate> right = common_end(rights, -1.0);
-    const std::optional<Estimate> left = common_end(lefts, +1.0);
+    const std::optional<Estimate> right = flight_ends_.right ? flight_ends_.right : common_end(rights, -1.0);
+    const std::optional<Estimate> left = flight_ends_.left ? flight_ends_.left : common_end(lefts, +1.0);
     if (right) fit_.sides.low = right->value;
     if (left) fit_.sides.high = left->value;
     fit_.sides_sigma_m = std::hypot(right ? right->sigma : kUnmeasuredEnd_m, left ? left->sigma : kUnmeasuredEnd_m);
@@ -365,8 +372,8 @@ class JointFitter {
     const double middle = fit_.sides.middle();
     fit_.right_limit.reset();
     fit_.left_limit.reset();
-    if (!right_limits.empty()) fit_.right_limit = outer_quartile(right_limits, true) - middle;
-    if (!left_limits.empty()) fit_.left_limit = outer_quartile(left_limits, false) - middle;
+    if (!flight_ends_.right && !right_limits.empty()) fit_.right_limit = outer_quartile(right_limits, true) - middle;
+    if (!flight_ends_.left && !left_limits.empty()) fit_.left_limit = outer_quartile(left_limits, false) - middle;
     fit_.model = fit_.model.moved_aside(middle);
     prior_ = prior_.moved_aside(fit_.sides.middle());
     const double half = 0.5 * fit_.sides.length();
@@ -381,6 +388,7 @@ class JointFitter {
   JointFit fit_;
   std::vector<StepMeasurement> steps_;
   CommonBiases biases_;
+  FlightEnds flight_ends_;
 };
 
 }  // namespace

@@ -10,13 +10,6 @@
 namespace stairway::detect {
 namespace {
 
-/// Share of an evenly lit unit disk that lies below a chord at x.
-double below_chord(double x) {
-  if (x <= -1.0) return 0.0;
-  if (x >= 1.0) return 1.0;
-  return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::numbers::pi;
-}
-
 struct Part {
   double range_m = 0.0;
   double share = 0.0;
@@ -89,6 +82,12 @@ SpotEcho echo_of_groups(const Groups& groups) {
 
 }  // namespace
 
+double share_below_chord(double x) {
+  if (x <= -1.0) return 0.0;
+  if (x >= 1.0) return 1.0;
+  return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::numbers::pi;
+}
+
 SpotEcho echo_of(std::span<const VisibleFace> faces, double elevation_rad, double spread_rad, const Backdrop& backdrop,
                  double pulse_separation_m) {
   constexpr double kLeastShare = 0.002;
@@ -109,7 +108,7 @@ SpotEcho echo_of(std::span<const VisibleFace> faces, double elevation_rad, doubl
   double before = 0.0;
   for (; face != faces.end() && face->begin_rad < high; ++face) {
     const double end = std::min(face->end_rad, high);
-    const double below = spread_rad > 0.0 ? below_chord((end - elevation_rad) / spread_rad) : 1.0;
+    const double below = spread_rad > 0.0 ? share_below_chord((end - elevation_rad) / spread_rad) : 1.0;
     const double share = below - before;
     before = below;
     if (share < kLeastShare) continue;

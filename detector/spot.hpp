@@ -37,6 +37,9 @@ struct SpotEcho {
   double far_m = 0.0;
 };
 
+/// Share of an evenly lit unit disk that lies below a chord at x: 0 for x <= -1, 1 for x >= 1.
+double share_below_chord(double x);
+
 /// The echo of a beam at `elevation_rad` whose spot spreads over `spread_rad` to both sides.
 ///
 /// The spot is an evenly lit disk: its share between two elevations follows from the area between two chords.

@@ -125,7 +125,7 @@ TEST(Accuracy, tells_what_was_found_errors_sigmas_and_steps_of_every_case) {
   Request request;
   request.seed = 1000;
   request.share = 1e-6;
-  request.settings.simulate.disk_period_s = 2.0;
+  request.settings.disk.period_s = 2.0;
   const Result result = run_accuracy(request);
   ASSERT_EQ(result.tables.size(), 4U);
   EXPECT_EQ(result.tables[0].rows.size(), accuracy_cases().size());
