@@ -332,10 +332,15 @@ class JointFitter {
                              .open_risers = !has_risers(),
                              .from_above = view_ == View::FromAbove};
     const std::optional<BeamFit> beams = fit_beams(corridor_, start, options_.beams);
-    if (!beams) return;
+    if (!beams) {
+      fit_.offsets.clear();  // what steps measured one by one is off by more than steps are
+      return;
+    }
     fit_.model = beams->model;
     fit_.sigmas = beams->sigmas;
+    constexpr double kMostExplained = 0.6;
     fit_.offsets = beams->offsets;
+    if (beams->explained < kMostExplained && !are_irregular(fit_.offsets, true)) fit_.offsets.clear();
     measure(0);
     const StepFrame frame = fit_.model.step(start.first);
     const StepPoint sensor = frame.to_step(*corridor_.sensor());

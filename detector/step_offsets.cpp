@@ -49,24 +49,28 @@ std::vector<StepOffset> step_offsets(const StairModel& model, const CommonBiases
   return offsets;
 }
 
-bool are_irregular(const std::vector<StepOffset>& offsets) {
+bool are_irregular(const std::vector<StepOffset>& offsets, bool but_for_one) {
   constexpr double kNobodyMinds_m = 0.004;  // root mean square
   constexpr double kChi2PerStep = 6.0;
   constexpr double kAnotherThing_m = 0.045;  // not the step, or not this one
   constexpr std::size_t kFewest = 3;
   for (const auto part : {&StepOffset::up, &StepOffset::ahead}) {
-    std::vector<double> squares;
-    double chi2 = 0.0;
-    for (const StepOffset& offset : offsets) {
-      const std::optional<Estimate>& off = offset.*part;
-      if (!off || std::abs(off->value) > kAnotherThing_m) continue;
-      squares.push_back(off->value * off->value);
-      chi2 += squares.back() / (off->sigma * off->sigma);
-    }
-    const double n = static_cast<double>(squares.size());
-    if (squares.size() < kFewest) continue;
+    std::vector<Estimate> believed;
+    for (const StepOffset& offset : offsets)
+      if (const std::optional<Estimate>& off = offset.*part; off && std::abs(off->value) < kAnotherThing_m)
+        believed.push_back(*off);
+    if (but_for_one && !believed.empty())
+      believed.erase(std::max_element(believed.begin(), believed.end(), [](const Estimate& a, const Estimate& b) {
+        return std::abs(a.value) < std::abs(b.value);
+      }));
+    if (believed.size() < kFewest) continue;
+    const double n = static_cast<double>(believed.size());
     double sum = 0.0;
-    for (const double square : squares) sum += square;
+    double chi2 = 0.0;
+    for (const Estimate& off : believed) {
+      sum += off.value * off.value;
+      chi2 += off.value * off.value / (off.sigma * off.sigma);
+    }
     if (sum > n * kNobodyMinds_m * kNobodyMinds_m && chi2 > kChi2PerStep * n) return true;
   }
   return false;

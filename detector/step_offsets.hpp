@@ -28,6 +28,7 @@ std::vector<StepOffset> step_offsets(const StairModel& model, const CommonBiases
                                      const std::vector<StepMeasurement>& steps);
 
 /// Whether the steps differ by more than their measurements' errors explain, and by more than nobody would mind.
-bool are_irregular(const std::vector<StepOffset>& offsets);
+/// @param but_for_one  one of them alone, the worst, is not believed.
+bool are_irregular(const std::vector<StepOffset>& offsets, bool but_for_one = false);
 
 }  // namespace stairway::detect
