@@ -159,7 +159,15 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
       .real("min_coverage", joint_fit.measurement.min_coverage, kPlain, {0, 1},
             "share of the side that a front or surface must cover")
       .real("min_contrast", joint_fit.measurement.min_contrast, kPlain, {0, 1000},
-            "density of points on a front or surface against that around it");
+            "density of points on a front or surface against that around it")
+      .real("pulse_separation", joint_fit.beams.pulse_separation_m, kMillimetre, {1, 100000},
+            "surfaces nearer to each other in range give one echo between them")
+      .whole("edge_beams", joint_fit.beams.edge_beams, 1, 1000000, "fitted at most, of those next to an edge")
+      .whole("plane_beams", joint_fit.beams.plane_beams, 1, 1000000, "fitted at most, of those on one face")
+      .real("max_misfit", joint_fit.beams.max_misfit, kPlain, {0.1, 100},
+            "in sigmas; beams that differ more do not see what is fitted to them")
+      .real("min_explained", joint_fit.beams.min_explained, kPlain, {0, 1},
+            "share of the beams that must measure what the flight says");
 
   detect::RailingOptions& railing = detector.railing;
   Section(table, "detector.railing")

@@ -23,6 +23,7 @@ constexpr std::array<double, kUnknowns> kScale{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0
 constexpr double kUsualThickness_m = 0.04;
 constexpr double kMostOverhang_m = 0.06;
 constexpr double kLeastThickness_m = 0.015;
+constexpr double kMostThickness_m = 0.08;
 constexpr double kLeastRadius_rad = 0.5e-3;
 constexpr double kSurelyUneven_m = 0.03;  // what a step may be off by
 
@@ -62,8 +63,8 @@ struct BeamResidual {
 
 class BeamFitter {
  public:
-  BeamFitter(const StairCorridor& corridor, const BeamFitStart& start, const BeamFitOptions& options)
-      : start_(start), options_(options), frame_(start.model.step(start.first)) {
+  BeamFitter(const StairCorridor& corridor, const BeamFitStart& start, bool open_risers, const BeamFitOptions& options)
+      : start_(start), open_risers_(open_risers), options_(options), frame_(start.model.step(start.first)) {
     sensor_ = frame_.to_step(*corridor.sensor());
     const auto steps = static_cast<Eigen::Index>(start.last - start.first + 1);
     flight_.ahead = flight_.up = Eigen::VectorXd::Zero(steps);
@@ -73,25 +74,25 @@ class BeamFitter {
       if (offset.ahead) flight_.ahead[i] = std::clamp(offset.ahead->value, -kSurelyUneven_m, kSurelyUneven_m);
       if (offset.up) flight_.up[i] = std::clamp(offset.up->value, -kSurelyUneven_m, kSurelyUneven_m);
     }
-    flight_.unknowns[kThickness] = start.open_risers && start.model.tread_thickness_m > kLeastThickness_m
+    flight_.unknowns[kThickness] = open_risers && start.model.tread_thickness_m > kLeastThickness_m
                                        ? start.model.tread_thickness_m
                                        : kUsualThickness_m;
-    flight_.unknowns[kSpot] = options.beams.spot.radius_rad;
+    flight_.unknowns[kSpot] = 0.5 * start.spot_rad;
     is_free_.fill(true);
     is_free_[kOverhang] = false;
-    is_free_[kThickness] = start.open_risers;
+    is_free_[kThickness] = open_risers;
     usual_ = flight_.unknowns;
     usual_[kOverhang] = 0.0;
     usual_[kThickness] = kUsualThickness_m;
     beams_ = select_beams(corridor, frame_, sensor_, visible_faces(shape(flight_), {sensor_.u, sensor_.z}), start.sides,
-                          options.beams);
+                          0.5 * start.spot_rad, options.edge_beams, options.plane_beams);
   }
 
   std::optional<BeamFit> run() {
     constexpr std::size_t kFewestBeams = 100;
     if (beams_.size() < kFewestBeams) return std::nullopt;
     close_in();
-    if (!start_.open_risers) look_for_overhang();
+    if (!open_risers_) look_for_overhang();
     BeamFit fit{.model = model()};
     fit.misfit = robust_deviation(residuals_of_known(), 0.0);
     fit.explained = explained();
@@ -146,7 +147,7 @@ class BeamFitter {
     constexpr double kFloor_m = 100.0;
     StairProfileShape shape{.overhang_m = flight.unknowns[kOverhang],
                             .thickness_m = flight.unknowns[kThickness],
-                            .open_risers = start_.open_risers,
+                            .open_risers = open_risers_,
                             .step_height_m = 0.5 * start_.model.height_m,
                             .last_tread_m = start_.from_above ? kFloor_m : 0.0,
                             .goes_on_below = start_.from_above};
@@ -185,11 +186,11 @@ class BeamFitter {
     const double range_m = std::sqrt(beam.u * beam.u + beam.v * beam.v + beam.z * beam.z);
     const double scale = range_m / plane_m;
     const SpotEcho echo = echo_of(look.faces, std::atan2(beam.z, u), look.radius_rad * scale, beam.backdrop,
-                                  options_.beams.spot.pulse_separation_m / scale);
+                                  options_.pulse_separation_m / scale);
     if (!echo.is_known) return {};
     const double measured_m = plane_m * (1.0 - look.bias_m / range_m);
     const auto over_sigma = [&](double off_m) {
-      return off_m * scale / std::hypot(options_.range_sigma_m, kUnevenSpot * echo.spread_m * scale);
+      return off_m * scale / std::hypot(start_.range_sigma_m, kUnevenSpot * echo.spread_m * scale);
     };
     // What lies past the flight is not what is fitted.
     if (echo.is_past) return {.range = 0.0, .share = measured_m < echo.range_m - kAnyOther_m ? 1.0 / kShareSigma : 0.0};
@@ -265,7 +266,7 @@ class BeamFitter {
     Flight flight = flight_;
     flight.unknowns += by;
     flight.unknowns[kOverhang] = std::clamp(flight.unknowns[kOverhang], 0.0, kMostOverhang_m);
-    flight.unknowns[kThickness] = std::max(flight.unknowns[kThickness], kLeastThickness_m);
+    flight.unknowns[kThickness] = std::clamp(flight.unknowns[kThickness], kLeastThickness_m, kMostThickness_m);
     flight.unknowns[kSpot] = std::max(flight.unknowns[kSpot], kLeastRadius_rad);
     return flight;
   }
@@ -405,6 +406,7 @@ class BeamFitter {
   }
 
   const BeamFitStart& start_;
+  const bool open_risers_;
   const BeamFitOptions& options_;
   StepFrame frame_;
   StepPoint sensor_;
@@ -418,27 +420,32 @@ class BeamFitter {
 
 }  // namespace
 
+std::string BeamFitOptions::problem() const {
+  if (!(pulse_separation_m > 0.0)) return "pulse_separation_m must be greater than 0";
+  if (edge_beams < 1 || plane_beams < 1) return "edge_beams and plane_beams must be at least 1";
+  if (!(max_misfit > 0.0)) return "max_misfit must be greater than 0";
+  return {};
+}
+
 std::optional<BeamFit> fit_beams(const StairCorridor& corridor, const BeamFitStart& start,
                                  const BeamFitOptions& options) {
   if (!corridor.sensor() || start.model.is_spiral() || start.last < start.first) return std::nullopt;
   const auto fit_as = [&](bool open_risers, bool is_regular) {
     BeamFitStart as = start;
-    as.open_risers = open_risers;
     if (is_regular) as.offsets.clear();
-    return BeamFitter(corridor, as, options).run();
+    return BeamFitter(corridor, as, open_risers, options).run();
   };
-  // What explains more beams is true; what is unusual must explain clearly more.
+  // What explains more beams is true; what is unusual must explain clearly more. Risers are tried first: taken for a
+  // backdrop behind open ones they would explain nearly as much.
   constexpr double kWell = 0.75;
   constexpr double kClearlyMore = 0.03;
   const auto explained = [](const std::optional<BeamFit>& fit) { return fit ? fit->explained : 0.0; };
-  bool open_risers = start.open_risers;
-  std::optional<BeamFit> best = fit_as(open_risers, true);
+  bool open_risers = false;
+  std::optional<BeamFit> best = fit_as(false, true);
   if (explained(best) < kWell) {
-    std::optional<BeamFit> other = fit_as(!open_risers, true);
-    if (explained(other) > explained(best)) {
-      best = std::move(other);
-      open_risers = !open_risers;
-    }
+    std::optional<BeamFit> open = fit_as(true, true);
+    open_risers = explained(open) > explained(best);
+    if (open_risers) best = std::move(open);
   }
   if (start.offsets.empty() || (explained(best) > kWell && !are_irregular(best->offsets))) return best;
   std::optional<BeamFit> irregular = fit_as(open_risers, false);

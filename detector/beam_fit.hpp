@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "detector/stair_beams.hpp"
@@ -12,10 +13,13 @@
 namespace stairway::detect {
 
 struct BeamFitOptions {
-  StairBeamOptions beams;
-  double range_sigma_m = 0.010;  ///< white noise of one range [m], > 0
-  double max_misfit = 2.0;       ///< root of chi^2 per beam, above which the beams do not see what the model says
-  double min_explained = 0.2;    ///< share of the beams that must have measured what the model says
+  double pulse_separation_m = 0.7;  ///< surfaces nearer to each other in range give one echo between them [m]
+  int edge_beams = 6000;            ///< at most so many whose spot lies near an edge
+  int plane_beams = 3000;           ///< and so many whose spot lies on one face
+  double max_misfit = 2.0;          ///< root of chi^2 per beam, above which the beams do not see what the model says
+  double min_explained = 0.2;       ///< share of the beams that must have measured what the model says
+
+  std::string problem() const;
 };
 
 /// What is known before of a flight that is to be fitted.
@@ -25,7 +29,8 @@ struct BeamFitStart {
   int first = 0;                    ///< lowest step that was seen
   int last = 0;                     ///< and highest
   std::vector<StepOffset> offsets;  ///< of single steps from the model; none of a regular flight
-  bool open_risers = false;         ///< more likely than not; where the beams contradict, the other is tried, too
+  double range_sigma_m = 0.010;     ///< white noise of one range [m], > 0
+  double spot_rad = 13.3e-3;        ///< about the full angle of the spot
   bool from_above = false;          ///< the sensor stands above the highest tread, which goes on as a floor
 };
 

@@ -329,7 +329,8 @@ class JointFitter {
                              .first = fit_.first,
                              .last = fit_.last,
                              .offsets = are_irregular(fit_.offsets) ? fit_.offsets : std::vector<StepOffset>{},
-                             .open_risers = !has_risers(),
+                             .range_sigma_m = options_.measurement.range_sigma_m,
+                             .spot_rad = options_.measurement.spot_rad,
                              .from_above = view_ == View::FromAbove};
     const std::optional<BeamFit> beams = fit_beams(corridor_, start, options_.beams);
     if (!beams) {
@@ -345,8 +346,8 @@ class JointFitter {
     const StepFrame frame = fit_.model.step(start.first);
     const StepPoint sensor = frame.to_step(*corridor_.sensor());
     flight_ends_ = find_flight_ends(corridor_, frame, sensor, visible_faces(beams->shape, {sensor.u, sensor.z}),
-                                    fit_.sides, options_.beams.beams.spot, options_.beams.range_sigma_m,
-                                    start.from_above ? start.last - start.first : -1);
+                                    fit_.sides, {0.5 * start.spot_rad, options_.beams.pulse_separation_m},
+                                    start.range_sigma_m, start.from_above ? start.last - start.first : -1);
     fit_sides();
   }
 
@@ -401,6 +402,7 @@ class JointFitter {
 std::string JointFitOptions::problem() const {
   if (passes < 1) return "passes must be at least 1";
   if (max_unseen_steps < 1) return "max_unseen_steps must be at least 1";
+  if (std::string problem = beams.problem(); !problem.empty()) return problem;
   return measurement.problem();
 }
 

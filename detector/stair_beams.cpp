@@ -107,8 +107,8 @@ class Background {
 class BeamSelection {
  public:
   BeamSelection(const StepPoint& sensor, std::span<const VisibleFace> faces, const Interval& sides,
-                const StairBeamOptions& options)
-      : sensor_(sensor), faces_(faces), sides_(sides), options_(options) {}
+                double spot_radius_rad)
+      : sensor_(sensor), faces_(faces), sides_(sides), spot_radius_rad_(spot_radius_rad) {}
 
   void look_at(const StepPoint& p) {
     Candidate c{.beam = {.u = p.u - sensor_.u, .v = p.v - sensor_.v, .z = p.z - sensor_.z}};
@@ -117,7 +117,7 @@ class BeamSelection {
     constexpr double kAlongNosing = 0.2;  // beams that run along the nosings tell little
     if (plane_m < kAlongNosing * range_m) return;
     c.elevation_rad = std::atan2(c.beam.z, c.beam.u);
-    c.spread_rad = options_.spot.radius_rad * range_m / plane_m;
+    c.spread_rad = spot_radius_rad_ * range_m / plane_m;
     find_faces(c);
     const bool is_single = c.first_face == c.last_face;
     const VisibleFace::Kind kind = faces_[c.first_face].kind;
@@ -129,10 +129,10 @@ class BeamSelection {
     (is_single ? on_planes_ : on_edges_).push_back(c);
   }
 
-  std::vector<StairBeam> beams() {
+  std::vector<StairBeam> beams(int most_on_edges, int most_on_planes) {
     std::vector<StairBeam> beams;
-    take(on_edges_, options_.most_edge_beams, beams);
-    take(on_planes_, options_.most_plane_beams, beams);
+    take(on_edges_, most_on_edges, beams);
+    take(on_planes_, most_on_planes, beams);
     return beams;
   }
 
@@ -161,7 +161,7 @@ class BeamSelection {
       if (face.kind == VisibleFace::Kind::Beyond || face.kind == VisibleFace::Kind::Unknown) continue;
       const double distance = face.distance_m(std::clamp(c.elevation_rad, face.begin_rad, face.end_rad));
       const double v = sensor_.v + c.beam.v * distance / plane_m;
-      const double margin = kClear_m + options_.spot.radius_rad * distance;
+      const double margin = kClear_m + spot_radius_rad_ * distance;
       if (v < sides_.low + margin || v > sides_.high - margin) return false;
     }
     return true;
@@ -181,7 +181,7 @@ class BeamSelection {
 
   using Cell = std::pair<int, int>;
   Cell cell_of(const Candidate& c) const {
-    const double size_rad = std::max(2.0 * options_.spot.radius_rad, 5e-3);
+    const double size_rad = std::max(2.0 * spot_radius_rad_, 5e-3);
     const double aside_rad = std::atan2(c.beam.v, std::hypot(c.beam.u, c.beam.z));
     return {static_cast<int>(std::floor(c.elevation_rad / size_rad)),
             static_cast<int>(std::floor(aside_rad / size_rad))};
@@ -207,7 +207,7 @@ class BeamSelection {
   StepPoint sensor_;
   std::span<const VisibleFace> faces_;
   Interval sides_;
-  const StairBeamOptions& options_;
+  double spot_radius_rad_;
   Background background_;
   std::set<Cell> obstacles_;
   std::vector<Candidate> on_edges_;
@@ -217,12 +217,12 @@ class BeamSelection {
 }  // namespace
 
 std::vector<StairBeam> select_beams(const StairCorridor& corridor, const StepFrame& frame, const StepPoint& sensor,
-                                    std::span<const VisibleFace> faces, const Interval& sides,
-                                    const StairBeamOptions& options) {
+                                    std::span<const VisibleFace> faces, const Interval& sides, double spot_radius_rad,
+                                    int most_on_edges, int most_on_planes) {
   if (faces.empty()) return {};
-  BeamSelection selection(sensor, faces, sides, options);
+  BeamSelection selection(sensor, faces, sides, spot_radius_rad);
   for (const Eigen::Vector3d& point : corridor.points()) selection.look_at(frame.to_step(point));
-  return selection.beams();
+  return selection.beams(most_on_edges, most_on_planes);
 }
 
 }  // namespace stairway::detect

@@ -21,12 +21,6 @@ struct StairBeam {
   int last_step = 0;   ///< likewise
 };
 
-struct StairBeamOptions {
-  SpotOptions spot;
-  int most_edge_beams = 6000;   ///< whose spot lies near an edge; of more every so many-th is taken
-  int most_plane_beams = 3000;  ///< whose spot lies on one face
-};
-
 /// The beams that tell something about a flight: those that ended on it or passed its edges, clear of its ends.
 ///
 /// Beams next to what stands in the way, balusters say, are left out: it mixes into their echoes.
@@ -34,9 +28,11 @@ struct StairBeamOptions {
 /// @param frame  of the flight's lowest step; `sensor` in its axes.
 /// @param faces  of the model from there, visible_faces().
 /// @param sides  of the flight along v.
+/// @param most_on_edges   beams whose spot lies near an edge; of more every so many-th is taken, > 0.
+/// @param most_on_planes  beams whose spot lies on one face, likewise.
 /// Cost: O(n) in the points of the corridor.
 std::vector<StairBeam> select_beams(const StairCorridor& corridor, const StepFrame& frame, const StepPoint& sensor,
-                                    std::span<const VisibleFace> faces, const Interval& sides,
-                                    const StairBeamOptions& options);
+                                    std::span<const VisibleFace> faces, const Interval& sides, double spot_radius_rad,
+                                    int most_on_edges, int most_on_planes);
 
 }  // namespace stairway::detect

@@ -73,7 +73,8 @@ TEST(Options, every_member_has_a_key) {
       {"detector.initialisation", count_members<InitialisationOptions>(), 1},
       {"detector.extension", count_members<ExtensionOptions>(), 0},
       {"detector.confirmation", count_members<ConfirmationOptions>(), 0},
-      {"detector.joint_fit", count_members<JointFitOptions>() + count_members<StepMeasurementOptions>(), 1},
+      {"detector.joint_fit",
+       count_members<JointFitOptions>() + count_members<StepMeasurementOptions>() + count_members<BeamFitOptions>(), 2},
       {"detector.railing", count_members<RailingOptions>(), 0},
       {"detector.localisation", count_members<LocalisationOptions>(), 0},
   };

@@ -16,15 +16,16 @@ detect::Detection one_stairway() { return {{test::sample_stairway()}, {}}; }
 
 TEST(DetectionJson, is_one_line_with_every_field_of_the_contract) {
   const std::string line = detection_json("a.pcd", 1513400, {{"total", 812.3456}, {"read", 12.0}}, one_stairway());
-  EXPECT_EQ(line,
-            "{\"source\":\"a.pcd\",\"points\":1513400,\"timing_ms\":{\"total\":812.346,\"read\":12.0},"
-            "\"stairways\":[{\"kind\":\"spiral\",\"direction\":\"descending\",\"steps\":3,"
-            "\"step_height\":0.170123,\"step_depth\":0.29,\"width\":1.2,\"pitch\":0.530533,\"heading\":-0.333333,"
-            "\"turn_per_step\":0.1,\"step_height_sigma\":0.0002,\"step_depth_sigma\":0.0003,\"width_sigma\":0.002,"
-            "\"heading_sigma\":0.0004,\"anchor\":[1.0,-2.0,0.0],\"anchor_side\":\"left\","
-            "\"railing\":{\"left\":true,\"right\":false},"
-            "\"nosings\":[[[1.0,2.0,3.0],[4.0,5.0,6.0]],[[7.0,8.0,9.0],[10.0,11.0,12.0]],"
-            "[[0.1,0.2,0.3],[-0.4,-0.5,-0.6]]],\"score\":12.5}],\"rejected\":[]}");
+  EXPECT_EQ(
+      line,
+      "{\"source\":\"a.pcd\",\"points\":1513400,\"timing_ms\":{\"total\":812.346,\"read\":12.0},"
+      "\"stairways\":[{\"kind\":\"spiral\",\"direction\":\"descending\",\"steps\":3,"
+      "\"step_height\":0.170123,\"step_depth\":0.29,\"width\":1.2,\"pitch\":0.530533,\"heading\":-0.333333,"
+      "\"turn_per_step\":0.1,\"step_height_sigma\":0.0002,\"step_depth_sigma\":0.0003,\"width_sigma\":0.002,"
+      "\"heading_sigma\":0.0004,\"anchor\":[1.0,-2.0,0.0],\"anchor_side\":\"left\","
+      "\"railing\":{\"left\":true,\"right\":false},"
+      "\"nosings\":[[[1.0,2.0,3.0],[4.0,5.0,6.0]],[[7.0,8.0,9.0],[10.0,11.0,12.0]],"
+      "[[0.1,0.2,0.3],[-0.4,-0.5,-0.6]]],\"irregular\":false,\"step_sizes\":[],\"score\":12.5}],\"rejected\":[]}");
 }
 
 TEST(DetectionJson, without_stairways_tells_why) {

@@ -69,21 +69,27 @@ void expect_flight(const json& answer) {
   EXPECT_NEAR(flight["heading"].get<double>(), 0.0, 0.02);
 }
 
-TEST(DetectVerb, json_line_has_the_keys_of_the_contract_and_no_others) {
+TEST(DetectVerb, json_line_has_the_keys_of_the_contract_and_those_of_single_steps_and_level) {
   const auto outcome = detect({"sim:straight-flight"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto answers = json_lines(outcome.out);
   ASSERT_EQ(answers.size(), 1U);
   const json& answer = answers[0];
-  EXPECT_EQ(keys(answer), (std::set<std::string>{"source", "points", "timing_ms", "stairways", "rejected"}));
+  EXPECT_EQ(keys(answer), (std::set<std::string>{"level", "source", "points", "timing_ms", "stairways", "rejected"}));
+  EXPECT_EQ(keys(answer["level"]), (std::set<std::string>{"roll", "pitch", "sigma", "planes", "floor_slope"}));
   EXPECT_EQ(answer["source"], "sim:straight-flight");
   EXPECT_GT(answer["points"].get<int>(), 100'000);
   EXPECT_GT(answer["timing_ms"]["total"].get<double>(), 0.0);
   ASSERT_EQ(answer["stairways"].size(), 1U);
   EXPECT_EQ(keys(answer["stairways"][0]),
-            (std::set<std::string>{"kind", "direction", "steps", "step_height", "step_depth", "width", "pitch",
-                                   "heading", "turn_per_step", "step_height_sigma", "step_depth_sigma", "width_sigma",
-                                   "heading_sigma", "anchor", "anchor_side", "railing", "nosings", "score"}));
+            (std::set<std::string>{
+                "kind",          "direction", "steps",         "step_height",       "step_depth",       "width",
+                "pitch",         "heading",   "turn_per_step", "step_height_sigma", "step_depth_sigma", "width_sigma",
+                "heading_sigma", "anchor",    "anchor_side",   "railing",           "nosings",          "irregular",
+                "step_sizes",    "score"}));
+  EXPECT_EQ(keys(answer["stairways"][0]["step_sizes"][0]),
+            (std::set<std::string>{"height", "height_sigma", "depth", "depth_sigma"}));
+  EXPECT_EQ(answer["stairways"][0]["step_sizes"].size(), answer["stairways"][0]["nosings"].size());
   EXPECT_EQ(keys(answer["stairways"][0]["railing"]), (std::set<std::string>{"left", "right"}));
   EXPECT_EQ(answer["stairways"][0]["nosings"].size(), answer["stairways"][0]["steps"].get<std::size_t>());
   expect_flight(answer);
