@@ -13,13 +13,13 @@
 namespace stairway::detect {
 namespace {
 
-enum Unknown { kAlong, kUp, kDepth, kRise, kHeading, kOverhang, kThickness, kBias, kSpot, kUnknowns };
+enum Unknown { kAlong, kUp, kDepth, kRise, kHeading, kOverhang, kThickness, kSpot, kUnknowns };
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
 // What is known of each beforehand: how far it may be from where the fit starts.
-constexpr std::array<double, kUnknowns> kPrior{0.05, 0.05, 0.02, 0.02, 0.05, 0.010, 0.02, 1e-5, 0.5e-3};
+constexpr std::array<double, kUnknowns> kPrior{0.05, 0.05, 0.02, 0.02, 0.05, 0.010, 0.02, 0.5e-3};
 // Of what size changes are to be compared: metres, but angles seen over some metres.
-constexpr std::array<double, kUnknowns> kScale{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.2};
+constexpr std::array<double, kUnknowns> kScale{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.2};
 constexpr double kUsualThickness_m = 0.04;
 constexpr double kMostOverhang_m = 0.06;
 constexpr double kLeastThickness_m = 0.015;
@@ -29,7 +29,7 @@ constexpr double kSurelyUneven_m = 0.03;  // what a step may be off by
 
 /// A flight as the fit moves it: in the axes of the lowest step where the fit began.
 struct Flight {
-  Unknowns unknowns = Unknowns::Zero();  ///< changes, but overhang, thickness, bias and spot as they are
+  Unknowns unknowns = Unknowns::Zero();  ///< changes, but overhang, thickness and spot as they are
   Eigen::VectorXd ahead;                 ///< offsets of single steps [m]
   Eigen::VectorXd up;                    ///< likewise
 };
@@ -98,7 +98,6 @@ class BeamFitter {
     fit.explained = explained();
     if (!flight_.unknowns.allFinite() || fit.misfit > options_.max_misfit || fit.explained < options_.min_explained)
       return std::nullopt;
-    fit.range_bias_m = flight_.unknowns[kBias];
     fit.spot_rad = 2.0 * flight_.unknowns[kSpot];
     const Unknowns sigmas = std::max(1.0, fit.misfit) * sigmas_;
     fit.shape = shape(flight_);
@@ -165,14 +164,12 @@ class BeamFitter {
     std::vector<VisibleFace> faces;
     double cosine = 1.0;
     double sine = 0.0;
-    double bias_m = 0.0;
     double radius_rad = 0.0;
   };
 
   Look look(const Flight& flight) const {
     Look look{.cosine = std::cos(flight.unknowns[kHeading]), .sine = std::sin(flight.unknowns[kHeading])};
     look.faces = visible_faces(shape(flight), {sensor_.u * look.cosine + sensor_.v * look.sine, sensor_.z});
-    look.bias_m = flight.unknowns[kBias];
     look.radius_rad = flight.unknowns[kSpot];
     return look;
   }
@@ -188,16 +185,15 @@ class BeamFitter {
     const SpotEcho echo = echo_of(look.faces, std::atan2(beam.z, u), look.radius_rad * scale, beam.backdrop,
                                   options_.pulse_separation_m / scale);
     if (!echo.is_known) return {};
-    const double measured_m = plane_m * (1.0 - look.bias_m / range_m);
     const auto over_sigma = [&](double off_m) {
       return off_m * scale / std::hypot(start_.range_sigma_m, kUnevenSpot * echo.spread_m * scale);
     };
     // What lies past the flight is not what is fitted.
-    if (echo.is_past) return {.range = 0.0, .share = measured_m < echo.range_m - kAnyOther_m ? 1.0 / kShareSigma : 0.0};
-    if (!echo.is_split) return {.range = over_sigma(measured_m - echo.range_m)};
-    const bool is_near = std::abs(measured_m - echo.near_m) < std::abs(measured_m - echo.far_m);
-    if (std::abs(measured_m - (is_near ? echo.near_m : echo.far_m)) > kAnyOther_m) return {};
-    return {.range = is_near ? over_sigma(measured_m - echo.near_m) : 0.0,
+    if (echo.is_past) return {.range = 0.0, .share = plane_m < echo.range_m - kAnyOther_m ? 1.0 / kShareSigma : 0.0};
+    if (!echo.is_split) return {.range = over_sigma(plane_m - echo.range_m)};
+    const bool is_near = std::abs(plane_m - echo.near_m) < std::abs(plane_m - echo.far_m);
+    if (std::abs(plane_m - (is_near ? echo.near_m : echo.far_m)) > kAnyOther_m) return {};
+    return {.range = is_near ? over_sigma(plane_m - echo.near_m) : 0.0,
             .share = ((is_near ? 1.0 : 0.0) - echo.near_share) / kShareSigma};
   }
 

@@ -38,7 +38,6 @@ struct BeamFit {
   StairModel model;
   FitSigmas sigmas;
   std::vector<StepOffset> offsets;  ///< of every step from the model
-  double range_bias_m = 0.0;        ///< that all ranges share, as far as the flight tells
   double spot_rad = 0.0;            ///< full angle of the spot that explains the mixed pixels best
   double misfit = 1.0;              ///< root of chi^2 per beam
   double explained = 0.0;           ///< share of the beams that measured what the model says
@@ -50,7 +49,7 @@ struct BeamFit {
 ///
 /// A maximum-likelihood estimate with a robust kernel: the expected range of every beam follows from the profile that
 /// the model shows to the sensor and the share of the spot on each of its faces. Unknown are the place, heading, height
-/// and depth of the steps, overhang and thickness, a range bias common to all beams and the size of the spot.
+/// and depth of the steps, overhang and thickness, and the size of the spot.
 /// @pre the start is within about half a spot of the truth and the corridor knows where the sensor stood.
 /// @return nothing when too few beams see the flight or when they do not see what the model says.
 /// Cost: about 100 passes over the beams.
