@@ -35,5 +35,7 @@ struct SurfaceNormals {
 /// Cost: O(N log N); the neighbour queries dominate.
 /// Method: PCA as in the paper's preprocessing, which leaves the neighbourhood open.
 SurfaceNormals estimate_normals(const scan::PointCloud& cloud, const NormalOptions& options = {});
+/// The same for the first `wanted` points alone; the others only help to tell the normals of those.
+SurfaceNormals estimate_normals(const scan::PointCloud& cloud, std::size_t wanted, const NormalOptions& options);
 
 }  // namespace stairway::detect

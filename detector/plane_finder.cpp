@@ -15,10 +15,17 @@ constexpr double kStrip_m = 0.05;
 
 Eigen::Vector3d horizontal_unit(const Eigen::Vector3d& v) { return Eigen::Vector3d(v.x(), v.y(), 0.0).normalized(); }
 
+// Points that scatter by more than half a length fill more than that length.
+bool surely_exceeds(const PlaneRegion& region, const Eigen::Vector3d& axis, double length_m) {
+  const Eigen::Vector3d shares = region.axes.axes.transpose() * axis;
+  return shares.cwiseAbs2().dot(region.axes.variances) > 0.25 * length_m * length_m;
+}
+
 std::optional<StairPart> as_riser(const scan::PointCloud& cloud, const PlaneRegion& region,
                                   const PlaneFinderOptions& options) {
   StairPart part{.kind = StairPart::Kind::Riser, .centroid = region.axes.centroid, .point_count = region.points.size()};
   part.facing = horizontal_unit(region.axes.normal());
+  if (surely_exceeds(region, Eigen::Vector3d::UnitZ(), options.max_riser_height_m)) return std::nullopt;
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(part.facing);
   const Interval height = robust_extent(cloud.points, region.points, Eigen::Vector3d::UnitZ(), across, kStrip_m);
   if (height.length() >= options.max_riser_height_m) return std::nullopt;
@@ -40,6 +47,7 @@ std::optional<StairPart> as_tread(const scan::PointCloud& cloud, const PlaneRegi
   StairPart part{.kind = StairPart::Kind::Tread, .centroid = region.axes.centroid, .point_count = region.points.size()};
   part.from_below = cloud.sensor_origin && cloud.sensor_origin->z() < static_cast<float>(part.centroid.z());
   part.facing = horizontal_unit(region.axes.axes.col(1));
+  if (surely_exceeds(region, part.facing, options.max_tread_depth_m)) return std::nullopt;
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(part.facing);
   const Interval depth = robust_extent(cloud.points, region.points, part.facing, across, kStrip_m);
   if (depth.length() >= options.max_tread_depth_m) return std::nullopt;
@@ -83,6 +91,9 @@ std::optional<StairPart> find_edge(const scan::PointCloud& cloud, const PlaneReg
                  .centroid = region.axes.centroid,
                  .facing = length.cross(Eigen::Vector3d::UnitZ()).normalized(),
                  .point_count = region.points.size()};
+  if (surely_exceeds(region, Eigen::Vector3d::UnitZ(), options.max_edge_thickness_m) ||
+      surely_exceeds(region, part.facing, options.max_edge_thickness_m))
+    return std::nullopt;
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(part.facing);
   const Interval height = robust_extent(cloud.points, region.points, Eigen::Vector3d::UnitZ(), across, kStrip_m);
   const Interval depth = robust_extent(cloud.points, region.points, part.facing, across, kStrip_m);

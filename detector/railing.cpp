@@ -10,12 +10,14 @@
 #include "detector/baluster_search.hpp"
 #include "detector/flight_frame.hpp"
 #include "detector/handrail_search.hpp"
+#include "detector/voxel_grid.hpp"
 
 namespace stairway::detect {
 namespace {
 
-constexpr double kEndSteps = 1.0;  // railings may begin before the first nosing and end behind the last
-constexpr double kLowest_m = 0.1;  // balusters are looked for above the treads' own noise
+constexpr double kEndSteps = 1.0;    // railings may begin before the first nosing and end behind the last
+constexpr double kThinned_m = 0.01;  // else what is near the sensor would count for more
+constexpr double kLowest_m = 0.1;    // balusters are looked for above the treads' own noise
 
 // The points beside one end of the steps; `along`, how far beyond the end, above the nosings.
 std::vector<Eigen::Vector3d> beside(const std::vector<FlightPoint>& points, const StairModel& model, double outward,
@@ -52,13 +54,16 @@ Railing find_railing(const scan::PointCloud& cloud, const StairModel& model, con
   if (!options.enabled) return {};
   const double reach = options.max_side_distance_m + options.max_thickness_m;
   const double highest = options.max_handrail_height_m + options.max_thickness_m;
+  const auto is_beside = [&](const FlightPoint& p) {
+    return p.step >= first - kEndSteps && p.step <= last + kEndSteps && p.above_m >= kLowest_m &&
+           p.above_m <= highest && p.side_m >= sides.low - reach && p.side_m <= sides.high + reach;
+  };
+  scan::PointCloud near;
+  for (const Eigen::Vector3f& point : cloud.points)
+    if (is_beside(to_flight(model, point.cast<double>()))) near.points.push_back(point);
   std::vector<FlightPoint> points;
-  for (const Eigen::Vector3f& point : cloud.points) {
-    const FlightPoint p = to_flight(model, point.cast<double>());
-    if (p.step >= first - kEndSteps && p.step <= last + kEndSteps && p.above_m >= kLowest_m && p.above_m <= highest &&
-        p.side_m >= sides.low - reach && p.side_m <= sides.high + reach)
-      points.push_back(p);
-  }
+  for (const Eigen::Vector3f& point : voxel_centroids(near, kThinned_m).points)
+    points.push_back(to_flight(model, point.cast<double>()));
   const auto left = railing_beside(beside(points, model, +1.0, sides.high, reach), options);
   const auto right = railing_beside(beside(points, model, -1.0, sides.low, reach), options);
   return {.left = left.has_value(),

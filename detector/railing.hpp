@@ -40,7 +40,7 @@ struct Railing {
 /// baluster is thin and upright, its first eigenvector near z, from knee to hand height. A wall, a person or a single
 /// post are none.
 ///
-/// @param cloud  thinned, frame of the model; what is not finite is left out.
+/// @param cloud  frame of the model; what is not finite is left out.
 /// @param sides  ends of the steps, along left() from the middle line of the model [m].
 /// @param first, last  numbers of the lowest and the highest step.
 /// Cost: one pass over the cloud.

@@ -20,23 +20,28 @@ constexpr std::uint32_t kNobody = ~std::uint32_t{0};
 
 class RegionGrower {
  public:
-  RegionGrower(const scan::PointCloud& cloud, const SurfaceNormals& surface, const RegionGrowingOptions& options)
+  RegionGrower(const scan::PointCloud& cloud, const SurfaceNormals& surface, std::span<const std::uint32_t> weights,
+               const RegionGrowingOptions& options)
       : cloud_(cloud),
         surface_(surface),
+        weights_(weights),
         blocks_(cloud.points, static_cast<std::size_t>(options.num_neighbours)),
         listed_for_(blocks_.size(), kNobody),
         min_cosine_(static_cast<float>(std::cos(options.max_normal_angle_rad))),
         max_distance_(static_cast<float>(options.max_plane_distance_m)),
         state_(cloud.points.size(), kFree) {}
 
+  std::uint64_t weight() const { return weight_; }
   bool is_free(std::uint32_t point) const { return state_[point] == kFree; }
 
   /// Alg. 1, function REGION GROWING; the result stays valid until the next call.
   const std::vector<std::uint32_t>& grow(std::uint32_t seed) {
     region_.clear();
+    weight_ = 0;
     comparison_list_.clear();
     center_ = cloud_.points[seed];
-    normal_sum_ = normal_ = surface_.normals[seed];
+    normal_sum_ = Eigen::Vector3f::Zero();
+    normal_ = surface_.normals[seed];
     accept(seed);
     for (std::size_t next = 0; next < comparison_list_.size(); ++next) {
       const std::uint32_t point = comparison_list_[next];
@@ -56,10 +61,11 @@ class RegionGrower {
   void accept(std::uint32_t point) {
     state_[point] = kAssigned;
     region_.push_back(point);
-    const auto count = static_cast<float>(region_.size());
-    center_ += (cloud_.points[point] - center_) / count;
+    weight_ += weights_[point];
+    const auto weight = static_cast<float>(weights_[point]);
+    center_ += (cloud_.points[point] - center_) * (weight / static_cast<float>(weight_));
     const Eigen::Vector3f& normal = surface_.normals[point];
-    if (region_.size() > 1) normal_sum_ += normal.dot(normal_) < 0.0F ? Eigen::Vector3f(-normal) : normal;
+    normal_sum_ += normal.dot(normal_) < 0.0F ? Eigen::Vector3f(-weight * normal) : Eigen::Vector3f(weight * normal);
     normal_ = normal_sum_.normalized();
 
     const std::uint32_t block = blocks_.block_of(point);
@@ -73,6 +79,7 @@ class RegionGrower {
 
   const scan::PointCloud& cloud_;
   const SurfaceNormals& surface_;
+  std::span<const std::uint32_t> weights_;
   const NeighbourBlocks blocks_;
   std::vector<std::uint32_t> listed_for_;  // the seed of the region that listed the points of a block last
   const float min_cosine_;
@@ -80,6 +87,7 @@ class RegionGrower {
 
   std::vector<std::uint8_t> state_;
   std::vector<std::uint32_t> region_;
+  std::uint64_t weight_ = 0;  // of its points
   std::vector<std::uint32_t> comparison_list_;
   Eigen::Vector3f center_ = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal_sum_ = Eigen::Vector3f::UnitZ();
@@ -109,15 +117,26 @@ std::string RegionGrowingOptions::problem() const {
   return {};
 }
 
-std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceNormals& surface,
-                                      const RegionGrowingOptions& options) {
-  RegionGrower grower(cloud, surface, options);
-  std::vector<PlaneRegion> regions;
+std::vector<std::vector<std::uint32_t>> grow_point_sets(const scan::PointCloud& cloud, const SurfaceNormals& surface,
+                                                        std::span<const std::uint32_t> weights,
+                                                        const RegionGrowingOptions& options) {
+  RegionGrower grower(cloud, surface, weights, options);
+  std::vector<std::vector<std::uint32_t>> sets;
   for (const std::uint32_t seed : flattest_first(surface.variations)) {
     if (!grower.is_free(seed)) continue;
     const std::vector<std::uint32_t>& points = grower.grow(seed);
-    if (points.size() > static_cast<std::size_t>(options.min_points))
-      regions.push_back(make_region(cloud.points, points, surface.normals[seed].cast<double>()));
+    if (grower.weight() > static_cast<std::uint64_t>(options.min_points)) sets.push_back(points);
+  }
+  return sets;
+}
+
+std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceNormals& surface,
+                                      const RegionGrowingOptions& options) {
+  const std::vector<std::uint32_t> weights(cloud.points.size(), 1);
+  std::vector<PlaneRegion> regions;
+  for (std::vector<std::uint32_t>& points : grow_point_sets(cloud, surface, weights, options)) {
+    const std::uint32_t seed = points.front();
+    regions.push_back(make_region(cloud.points, std::move(points), surface.normals[seed].cast<double>()));
   }
   return regions;
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,12 @@ struct RegionGrowingOptions {
 /// Method: Westfechtel et al. 2018, Alg. 1, eq 1.
 std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceNormals& surface,
                                       const RegionGrowingOptions& options = {});
+
+/// The same for points that stand for several each.
+/// @param weights  how many every point of the cloud stands for, in a region's mean and against `min_points`.
+/// @return the points of every region, its seed first.
+std::vector<std::vector<std::uint32_t>> grow_point_sets(const scan::PointCloud& cloud, const SurfaceNormals& surface,
+                                                        std::span<const std::uint32_t> weights,
+                                                        const RegionGrowingOptions& options);
 
 }  // namespace stairway::detect

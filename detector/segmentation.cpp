@@ -8,7 +8,7 @@ namespace stairway::detect {
 
 std::string SegmentationOptions::problem() const {
   for (const std::string& problem :
-       {normals.problem(), region_growing.problem(), split_and_merge.problem(), voxel_sac.problem()})
+       {normals.problem(), region_growing.problem(), patches.problem(), split_and_merge.problem(), voxel_sac.problem()})
     if (!problem.empty()) return problem;
   if (!(min_grazing_rad >= 0.0 && min_grazing_rad < std::numbers::pi / 4))
     return "min_grazing must lie between 0 and 45 degrees";
@@ -44,6 +44,15 @@ std::vector<PlaneRegion> segment(const scan::PointCloud& thinned, const Segmenta
   for (PlaneRegion& region : regions)
     for (std::uint32_t& point : region.points) point = kept[point];
   return regions;
+}
+
+std::vector<PlaneRegion> segment_by_patches(const scan::PointCloud& cloud, double voxel_m,
+                                            const SegmentationOptions& options, const StageListener& on_stage) {
+  begin_stage(on_stage, "normals");
+  SurfaceElements elements = surface_elements(cloud, voxel_m, options.normals, options.patches);
+  begin_stage(on_stage, "segmentation");
+  elements.drop_ghosts(options.min_grazing_rad);
+  return grow_regions(cloud, elements, options.region_growing);
 }
 
 }  // namespace stairway::detect

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "detector/normals.hpp"
+#include "detector/planar_patches.hpp"
 #include "detector/plane_region.hpp"
 #include "detector/region_growing.hpp"
 #include "detector/split_and_merge.hpp"
@@ -30,6 +31,7 @@ struct SegmentationOptions {
   /// program takes 5 degrees; 10 separate more treads of a descent and cost nothing else that was measured.
   double min_grazing_rad = std::numbers::pi / 18;
   RegionGrowingOptions region_growing;
+  PatchOptions patches;  ///< for region growing
   SplitAndMergeOptions split_and_merge;
   VoxelSacOptions voxel_sac;
 
@@ -38,6 +40,8 @@ struct SegmentationOptions {
 
   /// A region of the chosen method has more points than this.
   int min_points() const;
+  /// Whether regions grow over patches, so that the cloud need not be thinned.
+  bool uses_patches() const { return method == SegmentationMethod::RegionGrowing && patches.enabled; }
 };
 
 /// Splits a thinned cloud into planar regions.
@@ -48,5 +52,13 @@ struct SegmentationOptions {
 /// its place is known.
 std::vector<PlaneRegion> segment(const scan::PointCloud& thinned, const SegmentationOptions& options = {},
                                  const StageListener& on_stage = {});
+
+/// Grows regions over patches: as accurate as region growing, and faster by the share of the points that lie in
+/// patches.
+/// @param cloud    not thinned [m].
+/// @param voxel_m  to which the points in no patch are thinned [m], > 0.
+/// @return as segment(), with all points of the cloud that belong to a region.
+std::vector<PlaneRegion> segment_by_patches(const scan::PointCloud& cloud, double voxel_m,
+                                            const SegmentationOptions& options, const StageListener& on_stage = {});
 
 }  // namespace stairway::detect

@@ -58,9 +58,9 @@ FittedStairway as_fitted(const JointFit& fit, const Winner& winner) {
 
 // Balusters hide the ends of the steps behind them, which lie between the last point seen and the first line of sight
 // that passes freely beyond; posts stand close to the ends.
-Interval sides_past_railing(const scan::PointCloud& thinned, const JointFit& fit, const RailingOptions& options) {
+Interval sides_past_railing(const scan::PointCloud& cloud, const JointFit& fit, const RailingOptions& options) {
   constexpr double kFarthestInset_m = 0.3;
-  const Railing railing = find_railing(thinned, fit.model, fit.sides, fit.first, fit.last, options);
+  const Railing railing = find_railing(cloud, fit.model, fit.sides, fit.first, fit.last, options);
   Interval sides = fit.sides;
   const auto is_beyond = [](double limit, double end) { return limit > end && limit < end + kFarthestInset_m; };
   if (railing.left && fit.left_limit && is_beyond(*fit.left_limit, sides.high)) sides.high = *fit.left_limit;
@@ -69,9 +69,9 @@ Interval sides_past_railing(const scan::PointCloud& thinned, const JointFit& fit
 }
 
 // Fits every winner to the points; those that the points do not bear out are named in the answer.
-std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const scan::PointCloud& thinned,
-                                   const std::vector<Winner>& winners, const std::vector<StairPart>& parts,
-                                   const DetectorOptions& options, Detection& detection) {
+std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const std::vector<Winner>& winners,
+                                   const std::vector<StairPart>& parts, const DetectorOptions& options,
+                                   Detection& detection) {
   std::vector<FittedStairway> fitted;
   const CompetitionOptions& rules = options.competition;
   for (const Winner& winner : winners) {
@@ -82,7 +82,7 @@ std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const scan::Po
               : std::string("no-points-on-steps");
     if (rule.empty()) {
       fitted.push_back(as_fitted(*joint, winner));
-      fitted.back().sides = sides_past_railing(thinned, *joint, options.railing);
+      fitted.back().sides = sides_past_railing(cloud, *joint, options.railing);
     } else if (!winner.is_faint) {
       detection.rejected.push_back(rejection(rule, joint ? joint->model : winner.graph.model,
                                              joint ? joint->seen_steps : 0, rules.confirmation));
@@ -99,11 +99,11 @@ void begin_on_floor(const std::optional<SceneLevel>& level, std::vector<FittedSt
       stairway.floor_m = level->floor_at(stairway.model.step(stairway.first).nosing);
 }
 
-Detection detect_in_level_cloud(const scan::PointCloud& cloud, const scan::PointCloud& thinned,
+Detection detect_in_level_cloud(const scan::PointCloud& cloud, const scan::PointCloud& segmented,
                                 std::vector<PlaneRegion> regions, const std::optional<SceneLevel>& level,
                                 const DetectorOptions& options, const StageListener& on_stage) {
-  regions = merge_fragments(thinned, std::move(regions), options.plane_finder, options.fragment_merging);
-  const std::vector<StairPart> parts = find_parts(thinned, regions, options.plane_finder);
+  regions = merge_fragments(segmented, std::move(regions), options.plane_finder, options.fragment_merging);
+  const std::vector<StairPart> parts = find_parts(segmented, regions, options.plane_finder);
   begin_stage(on_stage, "stair_graph");
   const CompetitionResult competition = compete(parts, options.competition);
   begin_stage(on_stage, "fit");
@@ -112,12 +112,12 @@ Detection detect_in_level_cloud(const scan::PointCloud& cloud, const scan::Point
   if (competition.runner_up) detection.rejected.push_back(*competition.runner_up);
   std::vector<FittedStairway> fitted;
   if (options.competition.strategy == Strategy::Joint) {
-    fitted = refine(cloud, thinned, competition.winners, parts, options, detection);
+    fitted = refine(cloud, competition.winners, parts, options, detection);
   } else {
     for (const Winner& winner : competition.winners) fitted.push_back(from_parts(winner, parts));
   }
   if (fitted.empty())
-    explain_silence(cloud_fault(cloud, thinned, regions, options.segmentation.min_points()), regions.size(), parts,
+    explain_silence(cloud_fault(cloud, segmented, regions, options.segmentation.min_points()), regions.size(), parts,
                     detection.rejected);
   begin_stage(on_stage, "railing");
   fitted = without_duplicates(std::move(fitted));
@@ -125,7 +125,7 @@ Detection detect_in_level_cloud(const scan::PointCloud& cloud, const scan::Point
   begin_on_landings(fitted);
   for (FittedStairway& stairway : fitted)
     stairway.railing =
-        find_railing(thinned, stairway.model, stairway.sides, stairway.first, stairway.last, options.railing);
+        find_railing(cloud, stairway.model, stairway.sides, stairway.first, stairway.last, options.railing);
   begin_stage(on_stage, "localisation");
   for (const FittedStairway& stairway : fitted) detection.stairways.push_back(localise(stairway, options.localisation));
   return detection;
@@ -144,15 +144,23 @@ std::string DetectorOptions::problem() const {
 
 Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions& options,
                            const StageListener& on_stage) {
-  begin_stage(on_stage, "voxel_grid");
-  scan::PointCloud thinned = voxel_centroids(cloud, options.voxel_m);
-  std::vector<PlaneRegion> regions = segment(thinned, options.segmentation, on_stage);
+  const bool by_patches = options.segmentation.uses_patches();
+  scan::PointCloud thinned;
+  if (!by_patches) {
+    begin_stage(on_stage, "voxel_grid");
+    thinned = voxel_centroids(cloud, options.voxel_m);
+  }
+  std::vector<PlaneRegion> regions = by_patches
+                                         ? segment_by_patches(cloud, options.voxel_m, options.segmentation, on_stage)
+                                         : segment(thinned, options.segmentation, on_stage);
   begin_stage(on_stage, "plane_finder");
   const std::optional<SceneLevel> level = options.level.enabled ? level_by_scene(regions, options.level) : std::nullopt;
-  if (!level) return detect_in_level_cloud(cloud, thinned, std::move(regions), level, options, on_stage);
-  thinned = transformed(thinned, level->T_level_cloud);
+  if (!level)
+    return detect_in_level_cloud(cloud, by_patches ? cloud : thinned, std::move(regions), level, options, on_stage);
   transform(regions, level->T_level_cloud);
-  return detect_in_level_cloud(transformed(cloud, level->T_level_cloud), thinned, std::move(regions), level, options,
+  const scan::PointCloud level_cloud = transformed(cloud, level->T_level_cloud);
+  if (!by_patches) thinned = transformed(thinned, level->T_level_cloud);
+  return detect_in_level_cloud(level_cloud, by_patches ? level_cloud : thinned, std::move(regions), level, options,
                                on_stage);
 }
 

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "detector/voxel_grid.hpp"
 
-#include "detector/cell_groups.hpp"
-
 namespace stairway::detect {
 
 scan::PointCloud voxel_centroids(const scan::PointCloud& cloud, double leaf_m) {
-  const CellGroups cells = group_by_cell(cloud.points, leaf_m);
+  return centroids(cloud, group_by_cell(cloud.points, leaf_m));
+}
+
+scan::PointCloud centroids(const scan::PointCloud& cloud, const CellGroups& cells) {
   scan::PointCloud thinned;
   thinned.sensor_origin = cloud.sensor_origin;
   thinned.points.reserve(cells.size());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "detector/cell_groups.hpp"
 #include "scan_assembly/point_cloud.hpp"
 
 namespace stairway::detect {
@@ -16,5 +17,7 @@ namespace stairway::detect {
 /// @return cell centroids [m] with the sensor origin of the input; empty for an empty cloud.
 /// Cost: O(N) radix sort of the cell keys.
 scan::PointCloud voxel_centroids(const scan::PointCloud& cloud, double leaf_m);
+/// The same for cells that the points were grouped by before.
+scan::PointCloud centroids(const scan::PointCloud& cloud, const CellGroups& cells);
 
 }  // namespace stairway::detect

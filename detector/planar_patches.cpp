@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "detector/planar_patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "detector/cell_groups.hpp"
+#include "detector/cell_moments.hpp"
+#include "detector/ghost_filter.hpp"
+#include "detector/voxel_grid.hpp"
+
+namespace stairway::detect {
+namespace {
+
+// The points of an L, as where tread and riser meet, scatter a quarter as much across it as along it.
+constexpr double kFlat = 4.0;
+
+enum class CellUse : std::uint8_t { Patch, Halo, Loose };
+
+class ElementBuilder {
+ public:
+  ElementBuilder(const scan::PointCloud& cloud, const PatchOptions& options)
+      : cloud_(cloud),
+        options_(options),
+        cells_(group_by_cell(cloud.points, 0.5 * options.largest_m)),
+        moments_(moments_of_cells(cloud.points, cells_)),
+        use_(cells_.size(), CellUse::Loose) {
+    elements_.cloud.sensor_origin = cloud.sensor_origin;
+  }
+
+  SurfaceElements run(double voxel_m, const NormalOptions& normals) {
+    add_patches(voxel_m);
+    add_points(voxel_m, normals);
+    return std::move(elements_);
+  }
+
+ private:
+  std::optional<PrincipalAxes> plane_of(std::span<const std::uint32_t> cells, double min_points) const {
+    NeighbourhoodMoments sum(moments_[cells.front()].mean);
+    for (const std::uint32_t cell : cells) sum.add(moments_[cell]);
+    if (!(sum.count() > min_points)) return std::nullopt;
+    const PrincipalAxes axes = sum.axes();
+    const double thickness = axes.variances[2];
+    if (thickness > options_.max_thickness_m * options_.max_thickness_m || axes.variances[1] < kFlat * thickness)
+      return std::nullopt;
+    return axes;
+  }
+
+  void add_patches(double voxel_m) {
+    constexpr double kMoreForLarge = 1.5;
+    const double voxels = std::pow(0.5 * options_.largest_m / voxel_m, 2);
+    std::vector<Eigen::Vector3f> places;
+    places.reserve(moments_.size());
+    for (const CellMoments& cell : moments_) places.push_back(cell.place());
+    const CellGroups large = group_by_cell(places, options_.largest_m);
+    for (std::size_t i = 0; i < large.size(); ++i) {
+      if (const auto plane = plane_of(large[i], kMoreForLarge * options_.min_points)) {
+        add_patch(*plane, large[i], 4.0 * voxels);
+        continue;
+      }
+      for (const std::uint32_t& cell : large[i])
+        if (const auto plane = plane_of({&cell, 1}, options_.min_points)) add_patch(*plane, {&cell, 1}, voxels);
+    }
+  }
+
+  void add_patch(const PrincipalAxes& plane, std::span<const std::uint32_t> cells, double most_voxels) {
+    const std::size_t before = elements_.members.size();
+    for (const std::uint32_t cell : cells) {
+      use_[cell] = CellUse::Patch;
+      elements_.members.insert(elements_.members.end(), cells_[cell].begin(), cells_[cell].end());
+    }
+    const auto count = static_cast<double>(elements_.members.size() - before);
+    Eigen::Vector3f normal = plane.normal().cast<float>();
+    const Eigen::Vector3f place = plane.centroid.cast<float>();
+    if (cloud_.sensor_origin && normal.dot(*cloud_.sensor_origin - place) < 0.0F) normal = -normal;
+    close_element(place, static_cast<std::uint32_t>(std::min(count, std::max(1.0, most_voxels))));
+    elements_.surface.normals.push_back(normal);
+    elements_.surface.variations.push_back(static_cast<float>(plane.surface_variation()));
+  }
+
+  void close_element(const Eigen::Vector3f& place, std::uint32_t weight) {
+    elements_.cloud.points.push_back(place);
+    elements_.weights.push_back(weight);
+    const std::uint32_t first = elements_.runs.empty() ? 0 : elements_.runs.back().last;
+    elements_.runs.push_back({first, static_cast<std::uint32_t>(elements_.members.size())});
+  }
+
+  // The patches around loose points help to tell their normals.
+  void add_points(double voxel_m, const NormalOptions& options) {
+    std::vector<std::uint32_t> loose = points_used_as(CellUse::Loose);
+    scan::PointCloud near{.points = picked(loose), .sensor_origin = cloud_.sensor_origin};
+    const CellGroups voxels = group_by_cell(near.points, voxel_m);
+    scan::PointCloud thinned = centroids(near, voxels);
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+      for (const std::uint32_t point : voxels[i]) elements_.members.push_back(loose[point]);
+      close_element(thinned.points[i], 1);
+    }
+    mark_halo();
+    const std::size_t wanted = thinned.points.size();
+    const std::vector<Eigen::Vector3f> halo = picked(points_used_as(CellUse::Halo));
+    thinned.points.insert(thinned.points.end(), halo.begin(), halo.end());
+    const SurfaceNormals surface = estimate_normals(thinned, wanted, options);
+    SurfaceNormals& all = elements_.surface;
+    all.normals.insert(all.normals.end(), surface.normals.begin(), surface.normals.end());
+    all.variations.insert(all.variations.end(), surface.variations.begin(), surface.variations.end());
+  }
+
+  void mark_halo() {
+    CellRows rows(cells_, 1);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      bool is_near = false;
+      rows.around(i, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) is_near = is_near || use_[k] == CellUse::Loose;
+      });
+      if (is_near && use_[i] == CellUse::Patch) use_[i] = CellUse::Halo;
+    }
+  }
+
+  std::vector<std::uint32_t> points_used_as(CellUse use) const {
+    std::vector<std::uint32_t> points;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (use_[i] == use) points.insert(points.end(), cells_[i].begin(), cells_[i].end());
+    return points;
+  }
+
+  std::vector<Eigen::Vector3f> picked(const std::vector<std::uint32_t>& points) const {
+    std::vector<Eigen::Vector3f> result;
+    result.reserve(points.size());
+    for (const std::uint32_t point : points) result.push_back(cloud_.points[point]);
+    return result;
+  }
+
+  const scan::PointCloud& cloud_;
+  const PatchOptions& options_;
+  const CellGroups cells_;
+  const std::vector<CellMoments> moments_;
+  std::vector<CellUse> use_;
+  SurfaceElements elements_;
+};
+
+}  // namespace
+
+std::string PatchOptions::problem() const {
+  if (!(largest_m > 0.0)) return "largest_m must be greater than 0";
+  if (min_points < 3) return "min_points must be at least 3";
+  if (!(max_thickness_m > 0.0)) return "max_thickness_m must be greater than 0";
+  return {};
+}
+
+void SurfaceElements::drop_ghosts(double min_grazing_rad) {
+  const std::vector<std::uint32_t> kept = detect::drop_ghosts(cloud, surface, min_grazing_rad);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    weights[i] = weights[kept[i]];
+    runs[i] = runs[kept[i]];
+  }
+  weights.resize(kept.size());
+  runs.resize(kept.size());
+}
+
+SurfaceElements surface_elements(const scan::PointCloud& cloud, double voxel_m, const NormalOptions& normals,
+                                 const PatchOptions& options) {
+  return ElementBuilder(cloud, options).run(voxel_m, normals);
+}
+
+std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceElements& elements,
+                                      const RegionGrowingOptions& options) {
+  std::vector<PlaneRegion> regions;
+  for (const std::vector<std::uint32_t>& set :
+       grow_point_sets(elements.cloud, elements.surface, elements.weights, options)) {
+    std::vector<std::uint32_t> points;
+    for (const std::uint32_t element : set)
+      points.insert(points.end(), elements.members.begin() + elements.runs[element].first,
+                    elements.members.begin() + elements.runs[element].last);
+    regions.push_back(
+        make_region(cloud.points, std::move(points), elements.surface.normals[set.front()].cast<double>()));
+  }
+  return regions;
+}
+
+}  // namespace stairway::detect
