@@ -17,6 +17,9 @@ namespace {
 
 // The points of an L, as where tread and riser meet, scatter a quarter as much across it as along it.
 constexpr double kFlat = 4.0;
+constexpr double kFilled = 0.6;       // of the variance of a square as wide as the cell
+constexpr double kStray = 2.5;        // thicknesses
+constexpr double kMostStrays = 0.02;  // of the points
 
 enum class CellUse : std::uint8_t { Patch, Halo, Loose };
 
@@ -38,15 +41,28 @@ class ElementBuilder {
   }
 
  private:
-  std::optional<PrincipalAxes> plane_of(std::span<const std::uint32_t> cells, double min_points) const {
+  // Points that fill most of the cell's cross section and lie, but for strays, on one plane.
+  std::optional<PrincipalAxes> plane_of(std::span<const std::uint32_t> cells, double edge_m, double min_points) const {
     NeighbourhoodMoments sum(moments_[cells.front()].mean);
     for (const std::uint32_t cell : cells) sum.add(moments_[cell]);
     if (!(sum.count() > min_points)) return std::nullopt;
     const PrincipalAxes axes = sum.axes();
     const double thickness = axes.variances[2];
-    if (thickness > options_.max_thickness_m * options_.max_thickness_m || axes.variances[1] < kFlat * thickness)
+    if (thickness > options_.max_thickness_m * options_.max_thickness_m || axes.variances[1] < kFlat * thickness ||
+        axes.variances[1] < kFilled * edge_m * edge_m / 12.0 || strays(cells, axes) > kMostStrays * sum.count())
       return std::nullopt;
     return axes;
+  }
+
+  double strays(std::span<const std::uint32_t> cells, const PrincipalAxes& plane) const {
+    const Eigen::Vector3f normal = plane.normal().cast<float>();
+    const Eigen::Vector3f place = plane.centroid.cast<float>();
+    const auto far = static_cast<float>(kStray * options_.max_thickness_m);
+    double count = 0.0;
+    for (const std::uint32_t cell : cells)
+      for (const std::uint32_t point : cells_[cell])
+        count += std::abs(normal.dot(cloud_.points[point] - place)) > far ? 1.0 : 0.0;
+    return count;
   }
 
   void add_patches(double voxel_m) {
@@ -57,12 +73,13 @@ class ElementBuilder {
     for (const CellMoments& cell : moments_) places.push_back(cell.place());
     const CellGroups large = group_by_cell(places, options_.largest_m);
     for (std::size_t i = 0; i < large.size(); ++i) {
-      if (const auto plane = plane_of(large[i], kMoreForLarge * options_.min_points)) {
+      if (const auto plane = plane_of(large[i], options_.largest_m, kMoreForLarge * options_.min_points)) {
         add_patch(*plane, large[i], 4.0 * voxels);
         continue;
       }
       for (const std::uint32_t& cell : large[i])
-        if (const auto plane = plane_of({&cell, 1}, options_.min_points)) add_patch(*plane, {&cell, 1}, voxels);
+        if (const auto plane = plane_of({&cell, 1}, 0.5 * options_.largest_m, options_.min_points))
+          add_patch(*plane, {&cell, 1}, voxels);
     }
   }
 
