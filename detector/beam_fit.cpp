@@ -119,7 +119,6 @@ class BeamFitter {
   double fit_flight(double kernel_sigmas) {
     constexpr double kReach = 1e-4;
     const Eigen::VectorXd r = residuals_.of(flight_);
-    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(r.size(), kFlightUnknowns);
     NormalEquations normal{Eigen::MatrixXd::Zero(kFlightUnknowns, kFlightUnknowns),
                            Eigen::VectorXd::Zero(kFlightUnknowns)};
     for (std::size_t i = 0; i < kFlightUnknowns; ++i) {
@@ -127,9 +126,8 @@ class BeamFitter {
       const double prior = kFlightScale[i] / kFlightPrior[i];
       normal.information(k, k) = prior * prior;
       normal.gradient[k] = (flight_.unknowns[k] - usual_[k]) / kFlightScale[i] * normal.information(k, k);
-      if (is_free_[i]) J.col(k) = derived_by(k, kReach * kFlightScale[i]) * kFlightScale[i];
     }
-    add_rows(r, J, kernel_sigmas, 2.0 * kReach, normal);
+    add_rows(r, residuals_.derived(flight_, r, is_free_, kReach), kernel_sigmas, kReach, normal);
     const Eigen::Map<const FlightUnknowns> scale(kFlightScale.data());
     FlightUnknowns moved = FlightUnknowns::Zero();
     damped_descent(normal, [&](const Eigen::VectorXd& change) {
@@ -142,15 +140,6 @@ class BeamFitter {
     });
     sigmas_ = scale.cwiseProduct(FlightUnknowns(normal.sigmas()));
     return moved.cwiseQuotient(sigmas_).cwiseAbs().maxCoeff();
-  }
-
-  // To one side alone where the other is out of bounds.
-  Eigen::VectorXd derived_by(Eigen::Index unknown, double reach) const {
-    const FlightUnknowns step = reach * FlightUnknowns::Unit(unknown);
-    const MovedFlight forward = flight_.changed(step);
-    const MovedFlight backward = flight_.changed(-step);
-    return (residuals_.of(forward) - residuals_.of(backward)) /
-           (forward.unknowns[unknown] - backward.unknowns[unknown]);
   }
 
   // Every step on its own, the flight as a whole held.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -31,7 +32,12 @@ class BeamResiduals {
   double sensor_distance_m() const { return std::hypot(sensor_.u, sensor_.v, sensor_.z); }
 
   /// Of all beams. Cost: O(n log n) in steps and beams.
-  Eigen::VectorXd of(const MovedFlight& flight) const;
+  Eigen::VectorXd of(const MovedFlight& flight) const { return of(flight, sights(flight)); }
+
+  /// The rows `r` of a flight, derived by each of its unknowns that is free, per `kFlightScale` of it, over `reach` of
+  /// those; the others' columns are 0.
+  Eigen::MatrixXd derived(const MovedFlight& flight, const Eigen::VectorXd& r,
+                          const std::array<bool, kFlightUnknowns>& is_free, double reach) const;
 
   /// The rows of of(), derived by the offsets of single steps (first ahead, then up) over `reach_m` to both sides.
   /// A step's faces and edges are seen by its own beams alone, so the others are left at 0.
@@ -41,12 +47,18 @@ class BeamResiduals {
   /// The profile a flight shows to the sensor, ready to be asked by beams.
   struct Look {
     std::vector<VisibleFace> faces;
-    double cosine = 1.0;
-    double sine = 0.0;
     double radius_rad = 0.0;
   };
+  /// A beam within the plane of the profile, which the flight's heading turns.
+  struct Sight {
+    double elevation_rad = 0.0;
+    double plane_m = 0.0;  ///< how far it went there
+    double scale = 1.0;    ///< and in space, by this factor
+  };
   Look look(const MovedFlight& flight) const;
-  Eigen::Vector2d rows_of(const StairBeam& beam, const Look& look) const;
+  std::vector<Sight> sights(const MovedFlight& flight) const;
+  Eigen::VectorXd of(const MovedFlight& flight, const std::vector<Sight>& sights) const;
+  Eigen::Vector2d rows_of(const StairBeam& beam, const Sight& sight, const Look& look) const;
 
   FlightBase base_;
   StepPoint sensor_;

@@ -15,7 +15,8 @@ double biweight(double residual, double kernel_sigmas) {
 double robust_gain(const Eigen::VectorXd& after, const Eigen::VectorXd& before, double kernel_sigmas) {
   const auto cost = [&](double r) {
     const double x = r / kernel_sigmas;
-    return std::abs(x) < 1.0 ? 1.0 - std::pow(1.0 - x * x, 3) : 1.0;
+    const double left = 1.0 - x * x;
+    return left > 0.0 ? 1.0 - left * left * left : 1.0;
   };
   double gain = 0.0;
   for (Eigen::Index i = 0; i < before.size(); ++i)
@@ -23,19 +24,26 @@ double robust_gain(const Eigen::VectorXd& after, const Eigen::VectorXd& before, 
   return gain * kernel_sigmas * kernel_sigmas / 3.0;
 }
 
-Eigen::VectorXd NormalEquations::sigmas() const { return information.inverse().diagonal().cwiseMax(0.0).cwiseSqrt(); }
-
 void add_rows(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, double kernel_sigmas, double reach,
               NormalEquations& normal) {
   constexpr double kJump = 3.0;
+  Eigen::MatrixXd weighted(J.cols() + 1, r.size());
+  Eigen::Index rows = 0;
   for (Eigen::Index i = 0; i < r.size(); ++i) {
-    if (!std::isfinite(r[i]) || !J.row(i).allFinite() || J.row(i).cwiseAbs().maxCoeff() * reach > kJump) continue;
-    const double weight = biweight(r[i], kernel_sigmas);
-    normal.information.selfadjointView<Eigen::Lower>().rankUpdate(J.row(i).transpose(), weight);
-    normal.gradient += weight * r[i] * J.row(i).transpose();
+    const double weight = std::isfinite(r[i]) ? biweight(r[i], kernel_sigmas) : 0.0;
+    if (weight == 0.0) continue;
+    auto row = weighted.col(rows);
+    row << J.row(i).transpose(), r[i];
+    if (!row.allFinite() || row.head(J.cols()).cwiseAbs().maxCoeff() * reach > kJump) continue;
+    row *= std::sqrt(weight);
+    ++rows;
   }
-  normal.information = Eigen::MatrixXd(normal.information.selfadjointView<Eigen::Lower>());
+  const auto kept = weighted.leftCols(rows);
+  normal.information.noalias() += kept.topRows(J.cols()) * kept.topRows(J.cols()).transpose();
+  normal.gradient.noalias() += kept.topRows(J.cols()) * kept.bottomRows(1).transpose();
 }
+
+Eigen::VectorXd NormalEquations::sigmas() const { return information.inverse().diagonal().cwiseMax(0.0).cwiseSqrt(); }
 
 void damped_descent(const NormalEquations& normal, const std::function<bool(const Eigen::VectorXd&)>& take) {
   for (const double damping : {0.0, 0.03, 0.3, 3.0, 30.0}) {
