@@ -17,7 +17,10 @@ namespace stairway::detect {
 namespace {
 
 // A forgiving kernel first.
-constexpr std::array kKernels_sigmas{12.0, 9.0, 7.0, 5.0};
+constexpr std::array kWideKernels_sigmas{12.0, 9.0};
+constexpr std::array kKernels_sigmas{7.0, 5.0};
+constexpr std::size_t kFewestBeams = 100;
+constexpr int kFewOf = 4;  // of so many beams one makes the first fit
 
 std::vector<double> finite_ranges(const Eigen::VectorXd& rows) {
   std::vector<double> ranges;
@@ -62,8 +65,17 @@ class BeamFitter {
     is_free_[kThickness] = open_risers;
   }
 
+  /// The model alone.
+  std::optional<StairModel> run_roughly() {
+    if (residuals_.beams().size() < kFewestBeams) return std::nullopt;
+    for (const double kernel : kWideKernels_sigmas) fit_flight(kernel);
+    close_in();
+    if (!flight_.unknowns.allFinite()) return std::nullopt;
+    return flight_.model(base_);
+  }
+
+  /// @pre the start is near.
   std::optional<BeamFit> run() {
-    constexpr std::size_t kFewestBeams = 100;
     if (residuals_.beams().size() < kFewestBeams) return std::nullopt;
     close_in();
     if (!base_.open_risers) look_for_overhang();
@@ -232,9 +244,15 @@ std::string BeamFitOptions::problem() const {
 std::optional<BeamFit> fit_beams(const StairCorridor& corridor, const BeamFitStart& start,
                                  const BeamFitOptions& options) {
   if (!corridor.sensor() || start.model.is_spiral() || start.last < start.first) return std::nullopt;
+  // A few beams first, for which beams see which edge is told by where the flight is taken to be.
+  BeamFitOptions few = options;
+  few.edge_beams = std::max(1, options.edge_beams / kFewOf);
+  few.plane_beams = std::max(1, options.plane_beams / kFewOf);
   const auto fit_as = [&](bool open_risers, bool is_regular) {
     BeamFitStart as = start;
     if (is_regular) as.offsets.clear();
+    if (const std::optional<StairModel> nearer = BeamFitter(corridor, as, open_risers, few).run_roughly())
+      as.model = *nearer;
     return BeamFitter(corridor, as, open_risers, options).run();
   };
   // What explains more beams is true; what is unusual must explain clearly more. Risers are tried first: taken for a
