@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "detector/railing.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -18,6 +19,16 @@ namespace {
 constexpr double kEndSteps = 1.0;    // railings may begin before the first nosing and end behind the last
 constexpr double kThinned_m = 0.01;  // else what is near the sensor would count for more
 constexpr double kLowest_m = 0.1;    // balusters are looked for above the treads' own noise
+
+// All that may belong to a railing, and more.
+Eigen::AlignedBox3f box_about(const StairModel& model, const Interval& sides, int first, int last, double highest) {
+  Eigen::AlignedBox3f box;
+  for (int number = first - 2; number <= last + 2; ++number)
+    for (const double side : {sides.low, sides.high})
+      for (const double above : {-model.height_m, highest + model.height_m})
+        box.extend(model.step(number).from_step({.v = side, .z = above}).cast<float>());
+  return box;
+}
 
 // The points beside one end of the steps; `along`, how far beyond the end, above the nosings.
 std::vector<Eigen::Vector3d> beside(const std::vector<FlightPoint>& points, const StairModel& model, double outward,
@@ -58,9 +69,10 @@ Railing find_railing(const scan::PointCloud& cloud, const StairModel& model, con
     return p.step >= first - kEndSteps && p.step <= last + kEndSteps && p.above_m >= kLowest_m &&
            p.above_m <= highest && p.side_m >= sides.low - reach && p.side_m <= sides.high + reach;
   };
+  const Eigen::AlignedBox3f box = box_about(model, {sides.low - reach, sides.high + reach}, first, last, highest);
   scan::PointCloud near;
   for (const Eigen::Vector3f& point : cloud.points)
-    if (is_beside(to_flight(model, point.cast<double>()))) near.points.push_back(point);
+    if (box.contains(point) && is_beside(to_flight(model, point.cast<double>()))) near.points.push_back(point);
   std::vector<FlightPoint> points;
   for (const Eigen::Vector3f& point : voxel_centroids(near, kThinned_m).points)
     points.push_back(to_flight(model, point.cast<double>()));

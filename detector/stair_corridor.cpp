@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace stairway::detect {
 namespace {
@@ -12,11 +11,10 @@ namespace {
 constexpr double kMargin_m = 0.5;
 constexpr double kFarthest_m = 30.0;
 
-/// Tells whether the way from one point to another enters the neighbourhood of a stairway.
-using Passage = std::function<bool(const Eigen::Vector3d& from, const Eigen::Vector3d& to)>;
+// Each tells whether the way from one point to another enters the neighbourhood of a stairway.
 
 // A straight flight lies in a slab along its slope, between its sides.
-Passage through_slab(const StairModel& model, const Interval& sides) {
+auto through_slab(const StairModel& model, const Interval& sides) {
   const StepFrame frame = model.step(0);
   const double slope = model.height_m / model.depth_m;
   const double half_height = model.height_m + kMargin_m;
@@ -35,7 +33,7 @@ Passage through_slab(const StairModel& model, const Interval& sides) {
 }
 
 // A spiral lies in a cylinder about its axis.
-Passage through_cylinder(const StairModel& model, const Interval& sides) {
+auto through_cylinder(const StairModel& model, const Interval& sides) {
   const Eigen::Vector2d axis = model.step(0).from_step({.v = model.radius_m()}).head<2>();
   const double radius =
       std::max(std::abs(model.radius_m() - sides.low), std::abs(model.radius_m() - sides.high)) + kMargin_m;
@@ -50,11 +48,17 @@ Passage through_cylinder(const StairModel& model, const Interval& sides) {
 
 StairCorridor::StairCorridor(const scan::PointCloud& cloud, const StairModel& model, const Interval& sides) {
   if (cloud.sensor_origin) sensor_ = cloud.sensor_origin->cast<double>();
-  const Passage enters = model.is_spiral() ? through_cylinder(model, sides) : through_slab(model, sides);
-  for (const Eigen::Vector3f& point : cloud.points) {
-    const Eigen::Vector3d p = point.cast<double>();
-    const bool near = (p - model.nosing).squaredNorm() < kFarthest_m * kFarthest_m;  // false for what is not finite
-    if (near && enters(sensor_.value_or(p), p)) points_.push_back(p);
+  const auto pick = [&](const auto& enters) {
+    for (const Eigen::Vector3f& point : cloud.points) {
+      const Eigen::Vector3d p = point.cast<double>();
+      const bool near = (p - model.nosing).squaredNorm() < kFarthest_m * kFarthest_m;  // false for what is not finite
+      if (near && enters(sensor_.value_or(p), p)) points_.push_back(p);
+    }
+  };
+  if (model.is_spiral()) {
+    pick(through_cylinder(model, sides));
+  } else {
+    pick(through_slab(model, sides));
   }
 }
 
