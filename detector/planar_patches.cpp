@@ -42,16 +42,28 @@ class ElementBuilder {
 
  private:
   // Points that fill most of the cell's cross section and lie, but for strays, on one plane.
-  std::optional<PrincipalAxes> plane_of(std::span<const std::uint32_t> cells, double edge_m, double min_points) const {
+  std::optional<PrincipalAxes> plane_of(std::span<const std::uint32_t> cells, double edge_m) const {
     NeighbourhoodMoments sum(moments_[cells.front()].mean);
     for (const std::uint32_t cell : cells) sum.add(moments_[cell]);
-    if (!(sum.count() > min_points)) return std::nullopt;
+    if (!(sum.count() > options_.min_points)) return std::nullopt;
     const PrincipalAxes axes = sum.axes();
     const double thickness = axes.variances[2];
     if (thickness > options_.max_thickness_m * options_.max_thickness_m || axes.variances[1] < kFlat * thickness ||
-        axes.variances[1] < kFilled * edge_m * edge_m / 12.0 || strays(cells, axes) > kMostStrays * sum.count())
+        axes.variances[1] < kFilled * edge_m * edge_m / 12.0 || may_be_ghosts(axes) ||
+        strays(cells, axes) > kMostStrays * sum.count())
       return std::nullopt;
     return axes;
+  }
+
+  // Ghosts between two surfaces line up to a slope that is seen from nearly within.
+  bool may_be_ghosts(const PrincipalAxes& plane) const {
+    constexpr double kUpright = 0.2;
+    constexpr double kLevel = 0.97;
+    constexpr double kGrazing = 0.42;  // 25 degrees
+    if (!cloud_.sensor_origin) return false;
+    const double upward = std::abs(plane.normal().z());
+    const Eigen::Vector3d sight = (plane.centroid - cloud_.sensor_origin->cast<double>()).normalized();
+    return upward > kUpright && upward < kLevel && std::abs(sight.dot(plane.normal())) < kGrazing;
   }
 
   double strays(std::span<const std::uint32_t> cells, const PrincipalAxes& plane) const {
@@ -66,21 +78,13 @@ class ElementBuilder {
   }
 
   void add_patches(double voxel_m) {
-    constexpr double kMoreForLarge = 1.5;
-    const double voxels = std::pow(0.5 * options_.largest_m / voxel_m, 2);
+    const double most_voxels = std::pow(options_.largest_m / voxel_m, 2);
     std::vector<Eigen::Vector3f> places;
     places.reserve(moments_.size());
     for (const CellMoments& cell : moments_) places.push_back(cell.place());
     const CellGroups large = group_by_cell(places, options_.largest_m);
-    for (std::size_t i = 0; i < large.size(); ++i) {
-      if (const auto plane = plane_of(large[i], options_.largest_m, kMoreForLarge * options_.min_points)) {
-        add_patch(*plane, large[i], 4.0 * voxels);
-        continue;
-      }
-      for (const std::uint32_t& cell : large[i])
-        if (const auto plane = plane_of({&cell, 1}, 0.5 * options_.largest_m, options_.min_points))
-          add_patch(*plane, {&cell, 1}, voxels);
-    }
+    for (std::size_t i = 0; i < large.size(); ++i)
+      if (const auto plane = plane_of(large[i], options_.largest_m)) add_patch(*plane, large[i], most_voxels);
   }
 
   void add_patch(const PrincipalAxes& plane, std::span<const std::uint32_t> cells, double most_voxels) {

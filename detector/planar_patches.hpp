@@ -16,7 +16,7 @@ namespace stairway::detect {
 struct PatchOptions {
   bool enabled = true;
   double largest_m = 0.16;         ///< edge of the largest cells that may be patches; others have half of it [m]
-  int min_points = 20;             ///< a patch has more points than this, the largest ones half as many again
+  int min_points = 30;             ///< a patch has more points than this, the largest ones half as many again
   double max_thickness_m = 0.016;  ///< standard deviation of its points from their plane [m]
 
   std::string problem() const;
