@@ -83,8 +83,30 @@ class ElementBuilder {
     places.reserve(moments_.size());
     for (const CellMoments& cell : moments_) places.push_back(cell.place());
     const CellGroups large = group_by_cell(places, options_.largest_m);
+    std::vector<std::optional<PrincipalAxes>> planes(large.size());
+    for (std::size_t i = 0; i < large.size(); ++i) planes[i] = plane_of(large[i], options_.largest_m);
+    CellRows rows(large, 1);
     for (std::size_t i = 0; i < large.size(); ++i)
-      if (const auto plane = plane_of(large[i], options_.largest_m)) add_patch(*plane, large[i], most_voxels);
+      if (planes[i] && goes_on_around(i, planes, rows)) add_patch(*planes[i], large[i], most_voxels);
+  }
+
+  // A facet of a column has neighbours above and below, the front of a step to both sides.
+  static bool goes_on_around(std::size_t cell, const std::vector<std::optional<PrincipalAxes>>& planes,
+                             CellRows& rows) {
+    constexpr int kFewest = 3;
+    constexpr double kParallel = 0.985;  // 10 degrees
+    constexpr double kInPlane_m = 0.02;
+    const PrincipalAxes& own = *planes[cell];
+    int count = 0;
+    rows.around(cell, [&](std::size_t first, std::size_t last) {
+      for (std::size_t other = first; other < last; ++other) {
+        if (other == cell || !planes[other]) continue;
+        const PrincipalAxes& axes = *planes[other];
+        count += std::abs(axes.normal().dot(own.normal())) > kParallel &&
+                 std::abs((axes.centroid - own.centroid).dot(own.normal())) < kInPlane_m;
+      }
+    });
+    return count >= kFewest;
   }
 
   void add_patch(const PrincipalAxes& plane, std::span<const std::uint32_t> cells, double most_voxels) {
