@@ -41,6 +41,14 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
       .whole("min_points", segmentation.region_growing.min_points, 3, 1000000,
              "a region must have more points than this");
 
+  detect::PatchOptions& patches = segmentation.patches;
+  Section(table, "detector.patches")
+      .on_off("enabled", patches.enabled, "grow regions over cells that are certainly planar, faster, not over points")
+      .real("edge", patches.edge_m, kMillimetre, {20, 2000}, "of the cells")
+      .whole("min_points", patches.min_points, 3, 1000000, "a patch has more points than this")
+      .real("max_thickness", patches.max_thickness_m, kMillimetre, {1, 500},
+            "standard deviation of its points from their plane; half as much again as the range noise");
+
   detect::SplitAndMergeOptions& split_and_merge = segmentation.split_and_merge;
   Section(table, "detector.split_and_merge")
       .real("max_leaf", split_and_merge.max_leaf_m, kMillimetre, {10, 10000}, "edge of the largest cells")

@@ -28,29 +28,36 @@ class ElementBuilder {
   ElementBuilder(const scan::PointCloud& cloud, const PatchOptions& options)
       : cloud_(cloud),
         options_(options),
-        cells_(group_by_cell(cloud.points, 0.5 * options.largest_m)),
+        cells_(group_by_cell(cloud.points, 0.5 * options.edge_m)),
         moments_(moments_of_cells(cloud.points, cells_)),
         use_(cells_.size(), CellUse::Loose) {
     elements_.cloud.sensor_origin = cloud.sensor_origin;
   }
 
-  SurfaceElements run(double voxel_m, const NormalOptions& normals) {
+  void find_patches(double voxel_m) {
     add_patches(voxel_m);
-    add_points(voxel_m, normals);
+    add_points(voxel_m);
+  }
+
+  SurfaceElements with_normals(const NormalOptions& options) {
+    const SurfaceNormals surface = estimate_normals(loose_, loose_count_, options);
+    SurfaceNormals& all = elements_.surface;
+    all.normals.insert(all.normals.end(), surface.normals.begin(), surface.normals.end());
+    all.variations.insert(all.variations.end(), surface.variations.begin(), surface.variations.end());
     return std::move(elements_);
   }
 
  private:
   // Points that fill most of the cell's cross section and lie, but for strays, on one plane.
-  std::optional<PrincipalAxes> plane_of(std::span<const std::uint32_t> cells, double edge_m) const {
+  std::optional<PrincipalAxes> plane_of(std::span<const std::uint32_t> cells) const {
     NeighbourhoodMoments sum(moments_[cells.front()].mean);
     for (const std::uint32_t cell : cells) sum.add(moments_[cell]);
-    if (!(sum.count() > options_.min_points)) return std::nullopt;
+    if (!(sum.count() > static_cast<float>(options_.min_points))) return std::nullopt;
     const PrincipalAxes axes = sum.axes();
     const double thickness = axes.variances[2];
     if (thickness > options_.max_thickness_m * options_.max_thickness_m || axes.variances[1] < kFlat * thickness ||
-        axes.variances[1] < kFilled * edge_m * edge_m / 12.0 || may_be_ghosts(axes) ||
-        strays(cells, axes) > kMostStrays * sum.count())
+        axes.variances[1] < kFilled * options_.edge_m * options_.edge_m / 12.0 || may_be_ghosts(axes) ||
+        strays(cells, axes) > kMostStrays * static_cast<double>(sum.count()))
       return std::nullopt;
     return axes;
   }
@@ -78,13 +85,13 @@ class ElementBuilder {
   }
 
   void add_patches(double voxel_m) {
-    const double most_voxels = std::pow(options_.largest_m / voxel_m, 2);
+    const double most_voxels = std::pow(options_.edge_m / voxel_m, 2);
     std::vector<Eigen::Vector3f> places;
     places.reserve(moments_.size());
     for (const CellMoments& cell : moments_) places.push_back(cell.place());
-    const CellGroups large = group_by_cell(places, options_.largest_m);
+    const CellGroups large = group_by_cell(places, options_.edge_m);
     std::vector<std::optional<PrincipalAxes>> planes(large.size());
-    for (std::size_t i = 0; i < large.size(); ++i) planes[i] = plane_of(large[i], options_.largest_m);
+    for (std::size_t i = 0; i < large.size(); ++i) planes[i] = plane_of(large[i]);
     CellRows rows(large, 1);
     for (std::size_t i = 0; i < large.size(); ++i)
       if (planes[i] && goes_on_around(i, planes, rows)) add_patch(*planes[i], large[i], most_voxels);
@@ -131,24 +138,20 @@ class ElementBuilder {
     elements_.runs.push_back({first, static_cast<std::uint32_t>(elements_.members.size())});
   }
 
-  // The patches around loose points help to tell their normals.
-  void add_points(double voxel_m, const NormalOptions& options) {
-    std::vector<std::uint32_t> loose = points_used_as(CellUse::Loose);
-    scan::PointCloud near{.points = picked(loose), .sensor_origin = cloud_.sensor_origin};
-    const CellGroups voxels = group_by_cell(near.points, voxel_m);
-    scan::PointCloud thinned = centroids(near, voxels);
+  // What lies in patches around loose points helps to tell their normals.
+  void add_points(double voxel_m) {
+    const std::vector<std::uint32_t> points = points_used_as(CellUse::Loose);
+    const scan::PointCloud loose{.points = picked(points), .sensor_origin = cloud_.sensor_origin};
+    const CellGroups voxels = group_by_cell(loose.points, voxel_m);
+    loose_ = centroids(loose, voxels);
+    loose_count_ = voxels.size();
     for (std::size_t i = 0; i < voxels.size(); ++i) {
-      for (const std::uint32_t point : voxels[i]) elements_.members.push_back(loose[point]);
-      close_element(thinned.points[i], 1);
+      for (const std::uint32_t point : voxels[i]) elements_.members.push_back(points[point]);
+      close_element(loose_.points[i], 1);
     }
     mark_halo();
-    const std::size_t wanted = thinned.points.size();
     const std::vector<Eigen::Vector3f> halo = picked(points_used_as(CellUse::Halo));
-    thinned.points.insert(thinned.points.end(), halo.begin(), halo.end());
-    const SurfaceNormals surface = estimate_normals(thinned, wanted, options);
-    SurfaceNormals& all = elements_.surface;
-    all.normals.insert(all.normals.end(), surface.normals.begin(), surface.normals.end());
-    all.variations.insert(all.variations.end(), surface.variations.begin(), surface.variations.end());
+    loose_.points.insert(loose_.points.end(), halo.begin(), halo.end());
   }
 
   void mark_halo() {
@@ -182,12 +185,14 @@ class ElementBuilder {
   const std::vector<CellMoments> moments_;
   std::vector<CellUse> use_;
   SurfaceElements elements_;
+  scan::PointCloud loose_;  // thinned, and the points around them
+  std::size_t loose_count_ = 0;
 };
 
 }  // namespace
 
 std::string PatchOptions::problem() const {
-  if (!(largest_m > 0.0)) return "largest_m must be greater than 0";
+  if (!(edge_m > 0.0)) return "edge_m must be greater than 0";
   if (min_points < 3) return "min_points must be at least 3";
   if (!(max_thickness_m > 0.0)) return "max_thickness_m must be greater than 0";
   return {};
@@ -204,8 +209,12 @@ void SurfaceElements::drop_ghosts(double min_grazing_rad) {
 }
 
 SurfaceElements surface_elements(const scan::PointCloud& cloud, double voxel_m, const NormalOptions& normals,
-                                 const PatchOptions& options) {
-  return ElementBuilder(cloud, options).run(voxel_m, normals);
+                                 const PatchOptions& options, const StageListener& on_stage) {
+  begin_stage(on_stage, "voxel_grid");
+  ElementBuilder builder(cloud, options);
+  builder.find_patches(voxel_m);
+  begin_stage(on_stage, "normals");
+  return builder.with_normals(normals);
 }
 
 std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceElements& elements,

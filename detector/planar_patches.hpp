@@ -9,14 +9,15 @@
 #include "detector/normals.hpp"
 #include "detector/plane_region.hpp"
 #include "detector/region_growing.hpp"
+#include "detector/stage_listener.hpp"
 #include "scan_assembly/point_cloud.hpp"
 
 namespace stairway::detect {
 
 struct PatchOptions {
   bool enabled = true;
-  double largest_m = 0.16;         ///< edge of the largest cells that may be patches; others have half of it [m]
-  int min_points = 30;             ///< a patch has more points than this, the largest ones half as many again
+  double edge_m = 0.16;            ///< of the cells [m], > 0
+  int min_points = 30;             ///< a patch has more points than this
   double max_thickness_m = 0.016;  ///< standard deviation of its points from their plane [m]
 
   std::string problem() const;
@@ -41,11 +42,15 @@ struct SurfaceElements {
   void drop_ghosts(double min_grazing_rad);
 };
 
+/// A cell is a patch when its points fill it, lie on one plane but for strays, and the plane goes on in three of the
+/// cells around it: columns have facets, and ghosts between two surfaces slopes, that would pass for planes else.
+///
 /// @param cloud    not thinned; points that are not finite belong to no element.
 /// @param voxel_m  points that are in no patch are thinned to one in every cell of this edge [m], > 0.
+/// @param on_stage  hears "voxel_grid" and "normals".
 /// Independent of the order of the points but for the rounding of sums. Cost: O(N).
 SurfaceElements surface_elements(const scan::PointCloud& cloud, double voxel_m, const NormalOptions& normals,
-                                 const PatchOptions& options);
+                                 const PatchOptions& options, const StageListener& on_stage = {});
 
 /// The regions that grow over surface elements, each with all the points that its elements stand for.
 /// @param elements  of this cloud.

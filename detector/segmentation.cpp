@@ -48,8 +48,7 @@ std::vector<PlaneRegion> segment(const scan::PointCloud& thinned, const Segmenta
 
 std::vector<PlaneRegion> segment_by_patches(const scan::PointCloud& cloud, double voxel_m,
                                             const SegmentationOptions& options, const StageListener& on_stage) {
-  begin_stage(on_stage, "normals");
-  SurfaceElements elements = surface_elements(cloud, voxel_m, options.normals, options.patches);
+  SurfaceElements elements = surface_elements(cloud, voxel_m, options.normals, options.patches, on_stage);
   begin_stage(on_stage, "segmentation");
   elements.drop_ghosts(options.min_grazing_rad);
   return grow_regions(cloud, elements, options.region_growing);
