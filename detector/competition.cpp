@@ -35,7 +35,7 @@ class Competition {
     } else {
       choose_best(starts);
     }
-    if (!result_.winners.empty() && !result_.winners.front().is_faint) result_.runner_up.reset();
+    if (!result_.winners.empty()) result_.runner_up.reset();
     std::stable_sort(result_.winners.begin(), result_.winners.end(),
                      [](const Winner& a, const Winner& b) { return a.score > b.score; });
     return std::move(result_);
@@ -63,16 +63,6 @@ class Competition {
       if (options_.strategy != Strategy::Thorough) optimise(candidate);
       claim(std::move(candidate));
     }
-    if (result_.winners.empty() && options_.strategy == Strategy::Joint) claim_faint();
-  }
-
-  // Open steps seen from afar are thin strips, of which two may be all that made parts. The joint fit looks for the
-  // points of the others, and confirms.
-  void claim_faint() {
-    constexpr std::size_t kMost = 6;
-    std::stable_sort(faint_.begin(), faint_.end(), [](const Winner& a, const Winner& b) { return a.score > b.score; });
-    for (Winner& candidate : faint_)
-      if (result_.winners.size() < kMost && is_free(candidate.graph)) claim(std::move(candidate));
   }
 
   std::optional<Winner> confirmed(const Initialisation& start) {
@@ -82,11 +72,6 @@ class Competition {
         extend_graph(start.model, starting_sides(start, parts_), parts_, grid_, candidate.view, options_.extension);
     if (const std::string rule = broken_rule(candidate.graph, confirmation_for(candidate.view)); !rule.empty()) {
       remember(rule, candidate.graph);
-      if (rule == "too-few-steps" && candidate.graph.seen_steps() == 2) {
-        candidate.score = score(candidate.graph, parts_, candidate.view).total();
-        candidate.is_faint = true;
-        faint_.push_back(std::move(candidate));
-      }
       return std::nullopt;
     }
     candidate.score = score(candidate.graph, parts_, candidate.view).total();
@@ -144,7 +129,6 @@ class Competition {
   std::vector<bool> taken_;
   CompetitionResult result_;
   int most_steps_ = 0;
-  std::vector<Winner> faint_;
 };
 
 }  // namespace

@@ -37,14 +37,13 @@ Rejection rejection(const std::string& rule, const StairModel& model, int seen_s
 struct Winner {
   StairGraph graph;
   View view = View::FromBelow;
-  FitSigmas sigmas;       ///< zero unless the strategy fits
-  double score = 0.0;     ///< eq 2
-  bool is_faint = false;  ///< parts of two steps only, put up by the strategy Joint since nothing better was there
+  FitSigmas sigmas;    ///< zero unless the strategy fits
+  double score = 0.0;  ///< eq 2
 };
 
 struct CompetitionResult {
   std::vector<Winner> winners;         ///< best score first; no part belongs to two of them
-  std::optional<Rejection> runner_up;  ///< the graph with most steps that was not confirmed, when none was
+  std::optional<Rejection> runner_up;  ///< the graph with most steps that was not confirmed, when nothing won
 };
 
 /// Initialises, extends, confirms and lets the graphs compete for their parts.

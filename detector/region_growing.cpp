@@ -94,11 +94,16 @@ class RegionGrower {
   Eigen::Vector3f normal_ = Eigen::Vector3f::UnitZ();
 };
 
-std::vector<std::uint32_t> flattest_first(const std::vector<float>& variations) {
+// The flatness of what stands for many points is the surer one.
+std::vector<std::uint32_t> flattest_first(const std::vector<float>& variations,
+                                          std::span<const std::uint32_t> weights) {
+  constexpr float kFlattest = 1e-6F;  // smaller differences are those of rounding
   // Floats that are not negative are ordered like their bits.
   std::vector<std::uint64_t> keys(variations.size());
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    keys[i] = std::uint64_t{std::bit_cast<std::uint32_t>(variations[i])} << 32 | i;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const float doubt = std::max(variations[i], kFlattest) / static_cast<float>(weights[i]);
+    keys[i] = std::uint64_t{std::bit_cast<std::uint32_t>(doubt)} << 32 | i;
+  }
   std::sort(keys.begin(), keys.end());
   std::vector<std::uint32_t> order(keys.size());
   std::transform(keys.begin(), keys.end(), order.begin(),
@@ -122,7 +127,7 @@ std::vector<std::vector<std::uint32_t>> grow_point_sets(const scan::PointCloud& 
                                                         const RegionGrowingOptions& options) {
   RegionGrower grower(cloud, surface, weights, options);
   std::vector<std::vector<std::uint32_t>> sets;
-  for (const std::uint32_t seed : flattest_first(surface.variations)) {
+  for (const std::uint32_t seed : flattest_first(surface.variations, weights)) {
     if (!grower.is_free(seed)) continue;
     const std::vector<std::uint32_t>& points = grower.grow(seed);
     if (grower.weight() > static_cast<std::uint64_t>(options.min_points)) sets.push_back(points);

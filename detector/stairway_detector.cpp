@@ -83,7 +83,7 @@ std::vector<FittedStairway> refine(const scan::PointCloud& cloud, const std::vec
     if (rule.empty()) {
       fitted.push_back(as_fitted(*joint, winner));
       fitted.back().sides = sides_past_railing(cloud, *joint, options.railing);
-    } else if (!winner.is_faint) {
+    } else {
       detection.rejected.push_back(rejection(rule, joint ? joint->model : winner.graph.model,
                                              joint ? joint->seen_steps : 0, rules.confirmation));
     }
