@@ -39,6 +39,9 @@ class DiskSupervisor {
   void on_encoder(EncoderState state, HostStamp now_ns);
   void on_angles(std::span<const AngleSample> samples);
 
+  /// The disk was braked by others, and gets up to the wanted speed from now on.
+  void expect_ramp(HostStamp now_ns) { begin_ramp(wanted_rad_s_, now_ns); }
+
   /// Lets time pass and gives what came of it, in order. Call it at least ten times a second, with times that do not go
   /// back.
   std::vector<DiskEvent> on_time(HostStamp now_ns);

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <string>
+#include <thread>
 
 #include "tools/sim/scene_file.hpp"
 #include "tools/stairwayd/simulated_source.hpp"
@@ -51,6 +53,7 @@ class HardwareSourceTest : public testing::Test {
         last_angle_ns = sample.stamp_ns;
       }
     }
+    if (const auto* trouble = std::get_if<SourceTrouble>(&event)) ++troubles[trouble->name];
     scans += std::holds_alternative<drivers::LaserScan>(event);
     clocks += std::holds_alternative<drivers::ClockQuality>(event);
   }
@@ -60,6 +63,7 @@ class HardwareSourceTest : public testing::Test {
   const config::Settings settings = settings_for_threads();
   sim::SimulatedRobot robot{sim::build_scene(sim::load_scene("empty-room")), simulated_robot_options(settings)};
   std::map<Device, SourceState> states;
+  std::map<std::string, int> troubles;
   drivers::HostStamp last_angle_ns = -1;
   int scans = 0, clocks = 0;
 };
@@ -80,6 +84,19 @@ TEST_F(HardwareSourceTest, threads_bring_the_devices_up_lose_one_and_get_it_back
 
   source.stop();
   EXPECT_EQ(robot.disk_speed_rad_s(), 0.0);
+  source.stop();
+}
+
+TEST_F(HardwareSourceTest, disk_brakes_while_nobody_reads_and_turns_again_when_somebody_does) {
+  HardwareSource source(settings, ports(robot), [](drivers::HostStamp stamp_ns) { return stamp_ns / 1000; });
+  ASSERT_TRUE(reads_until(source, [&] { return is_turning() && is_good(Device::Disk); }));
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  while (robot.disk_speed_rad_s() != 0.0 && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(10ms);
+  ASSERT_EQ(robot.disk_speed_rad_s(), 0.0);
+  troubles.clear();
+  ASSERT_TRUE(reads_until(source, [&] { return is_turning(); }));
+  EXPECT_GE(troubles["acquisition held up"], 1);
+  EXPECT_EQ(troubles["disk: speed not reached"], 0);
   source.stop();
 }
 

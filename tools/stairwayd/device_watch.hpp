@@ -33,6 +33,9 @@ class DeviceWatch {
   void take(const drivers::ClockQuality& quality) { events_.emplace_back(quality); }
   void take(RawBytes bytes) { events_.emplace_back(std::move(bytes)); }
 
+  /// The disk was braked behind the watch's back, and gets up to speed again from now on.
+  void expect_ramp(drivers::HostStamp now_ns) { supervisor_.expect_ramp(now_ns); }
+
   /// Lets time pass; call it after every batch of events and at least ten times a second.
   void pass_time(drivers::HostStamp now_ns);
 

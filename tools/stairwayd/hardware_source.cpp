@@ -46,6 +46,7 @@ HardwareSource::HardwareSource(const config::Settings& settings, DevicePorts por
       utime_us_(std::move(utime_us)),
       queue_(kWaitingNews),
       watch_(settings),
+      dead_man_(now_ns_()),
       is_motor_wanted_(watch_.is_motor_wanted()) {
   if (settings_.disk.angle_source == drivers::AngleSource::Encoder) {
     encoder_ = std::jthread([this, opener = std::move(ports.encoder)](std::stop_token stop) mutable {
@@ -76,9 +77,15 @@ std::vector<SourceEvent> HardwareSource::read(std::chrono::milliseconds timeout)
         },
         news.what);
   }
-  watch_.pass_time(now_ns_());
+  const HostStamp now_ns = now_ns_();
+  const bool was_braked = dead_man_.was_missed();
+  if (was_braked) watch_.expect_ramp(now_ns);
+  watch_.pass_time(now_ns);
   wanted_speed_rad_s_ = watch_.wanted_speed_rad_s();
+  dead_man_.note(now_ns);
   std::vector<SourceEvent> events = watch_.take_events();
+  if (was_braked)
+    events.emplace_back(SourceTrouble{std::nullopt, "acquisition held up", "the disk was braked meanwhile"});
   if (const std::uint64_t dropped = queue_.take_dropped(); dropped > 0)
     events.emplace_back(SourceTrouble{std::nullopt, "measurements dropped",
                                       fmt::format("{}: this computer is too slow or was held up", dropped)});
@@ -130,12 +137,21 @@ void HardwareSource::run_motor(std::stop_token stop, drivers::PortOpener<drivers
   name_this_thread("motor");
   drivers::DiskMotor motor(std::move(opener), now_ns_, settings_.motor);
   MotorRest rest;
+  bool is_braking = false;
   while (!stop.stop_requested()) {
     rest.follow(is_motor_wanted_, motor);
-    motor.set_speed(wanted_speed_rad_s_);
+    motor.set_speed(allowed_speed_rad_s(is_braking));
     push(motor.poll(kMotorPoll));
   }
   motor.stop();
+}
+
+double HardwareSource::allowed_speed_rad_s(bool& is_braking) {
+  const double wanted_rad_s = wanted_speed_rad_s_;
+  const bool was_braking = std::exchange(is_braking, wanted_rad_s != 0.0 && dead_man_.is_missed(now_ns_()));
+  // Who should report it is the one that hangs.
+  if (is_braking && !was_braking) log::warning("measurements have not been read for 2 s: the disk brakes");
+  return is_braking ? 0.0 : wanted_rad_s;
 }
 
 void HardwareSource::run_encoder(std::stop_token stop, drivers::PortOpener<drivers::EdgePort> opener) {

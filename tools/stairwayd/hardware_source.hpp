@@ -14,6 +14,7 @@
 #include "drivers/ports/can_port.hpp"
 #include "drivers/ports/edge_port.hpp"
 #include "drivers/ports/port_opener.hpp"
+#include "tools/stairwayd/dead_man.hpp"
 #include "tools/stairwayd/device_queue.hpp"
 #include "tools/stairwayd/device_watch.hpp"
 #include "tools/stairwayd/measurement_source.hpp"
@@ -34,7 +35,8 @@ struct DevicePorts {
 DevicePorts hardware_ports(const config::Settings& settings);
 
 /// Scanner, motor and encoder, each with a thread of its own (named scanner, motor, encoder) that waits for its device
-/// and for nothing else.
+/// and for nothing else. The disk brakes while read() does not return for DeadMan::kPatience_ns, and turns again when
+/// it does.
 class HardwareSource final : public MeasurementSource {
  public:
   using Utime = std::function<std::int64_t(drivers::HostStamp)>;
@@ -55,6 +57,7 @@ class HardwareSource final : public MeasurementSource {
                    std::optional<drivers::PortOpener<drivers::EdgePort>> sync);
   void run_motor(std::stop_token stop, drivers::PortOpener<drivers::CanPort> opener);
   void run_encoder(std::stop_token stop, drivers::PortOpener<drivers::EdgePort> opener);
+  double allowed_speed_rad_s(bool& is_braking);
   template <class Event>
   void push(std::vector<Event> events);
 
@@ -63,6 +66,7 @@ class HardwareSource final : public MeasurementSource {
   const Utime utime_us_;
   DeviceQueue queue_;
   DeviceWatch watch_;
+  DeadMan dead_man_;
   std::atomic<double> wanted_speed_rad_s_ = 0.0;
   std::atomic<bool> is_motor_wanted_;
 
