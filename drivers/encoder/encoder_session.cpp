@@ -34,7 +34,8 @@ std::vector<EncoderEvent> EncoderSession::on_open(const LineLevels& levels, int 
   queued_edges_ = queued_edges;
   decoder_ = QuadratureDecoder();
   set_levels(levels.a, levels.b);
-  levels_ns_ = last_edge_ns_ = last_step_ns_ = levels.stamp_ns;
+  asked_ns_ = last_edge_ns_ = levels.asked_ns;
+  levels_ns_ = last_step_ns_ = levels.stamp_ns;
   interval_ns_ = 0;
   last_line_ = EncoderLine::Index;
   direction_ = alone_ = 0;
@@ -67,6 +68,7 @@ std::vector<EncoderEvent> EncoderSession::on_levels(const LineLevels& levels) {
   direction_ = 0;
   if (set_levels(levels.a, levels.b) == QuadratureStep::Illegal)
     report(EncoderTrouble::IllegalTransition, "A and B both changed while edges were lost");
+  asked_ns_ = std::max(asked_ns_, levels.asked_ns);
   levels_ns_ = std::max(levels_ns_, levels.stamp_ns);
   return take_events();
 }
@@ -90,7 +92,7 @@ std::optional<double> EncoderSession::speed_rad_s(HostStamp now_ns) const {
 }
 
 void EncoderSession::take(const Edge& edge) {
-  if (edge.stamp_ns < levels_ns_) return;
+  if (is_in_levels(edge)) return;
   if (edge.stamp_ns < last_edge_ns_) {
     report(EncoderTrouble::LostEdges, std::string("an edge of ") + name_of(edge.line) + " came too late to be counted");
     return lose_track();
@@ -119,6 +121,11 @@ void EncoderSession::take(const Edge& edge) {
   if (!is_tie) return;
   report(EncoderTrouble::IllegalTransition, "A and B changed at the same time");
   lose_track();
+}
+
+bool EncoderSession::is_in_levels(const Edge& edge) const {
+  if (edge.stamp_ns < asked_ns_) return true;
+  return edge.stamp_ns < levels_ns_ && edge.line != EncoderLine::Index && level_of(edge.line) == edge.is_rising;
 }
 
 QuadratureStep EncoderSession::set_levels(bool a, bool b) {

@@ -33,7 +33,8 @@ class EncoderSession {
   /// @pre  options.problem() is empty.
   explicit EncoderSession(const EncoderOptions& options);
 
-  /// The lines are open; older edges are in the levels already.
+  /// The lines are open; edges from before the levels were asked for are in them already. One that came while they were
+  /// read is counted if it leads to another level than the one that was read.
   /// @param queued_edges  how many edges of each line the kernel keeps until they are read.
   std::vector<EncoderEvent> on_open(const LineLevels& levels, int queued_edges);
   /// Edges by stamp. Edges that go back in time are dropped.
@@ -69,6 +70,7 @@ class EncoderSession {
   };
 
   void take(const Edge& edge);
+  bool is_in_levels(const Edge& edge) const;
   void take_step(QuadratureStep step, HostStamp stamp_ns);
   void take_index(const IndexChange& change);
   void watch_for_index();
@@ -97,6 +99,7 @@ class EncoderSession {
   std::int64_t watched_from_ = 0;            // an index is due within one and a half revolutions from this count
   bool is_doubtful_ = false;
 
+  HostStamp asked_ns_ = std::numeric_limits<HostStamp>::min();
   HostStamp levels_ns_ = std::numeric_limits<HostStamp>::min();
   HostStamp last_edge_ns_ = std::numeric_limits<HostStamp>::min();
   HostStamp last_step_ns_ = 0;

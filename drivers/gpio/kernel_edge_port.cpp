@@ -75,8 +75,9 @@ bool KernelEdgePort::read_events(std::uint64_t& lost) {
 tl::expected<LineLevels, PortError> KernelEdgePort::levels() {
   gpio_v2_line_values values{};
   values.mask = (1U << offsets_.size()) - 1;
+  const HostStamp asked_ns = monotonic_now_ns();
   if (::ioctl(request_.get(), GPIO_V2_LINE_GET_VALUES_IOCTL, &values) != 0) return tl::unexpected(PortError::Closed);
-  return LineLevels{monotonic_now_ns(), (values.bits & 1) != 0, (values.bits & 2) != 0, (values.bits & 4) != 0};
+  return LineLevels{asked_ns, monotonic_now_ns(), (values.bits & 1) != 0, (values.bits & 2) != 0, (values.bits & 4) != 0};
 }
 
 tl::expected<std::unique_ptr<EdgePort>, std::string> open_kernel_lines(const GpioLines& lines,

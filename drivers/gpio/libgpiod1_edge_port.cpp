@@ -65,8 +65,9 @@ class Libgpiod1EdgePort : public EdgePort {
 
   tl::expected<LineLevels, PortError> levels() override {
     std::array<int, 3> values{};
+    const HostStamp asked_ns = monotonic_now_ns();
     if (gpiod_line_get_value_bulk(&lines_, values.data()) != 0) return tl::unexpected(PortError::Closed);
-    return LineLevels{monotonic_now_ns(), values[0] == 1, values[1] == 1, values[2] == 1};
+    return LineLevels{asked_ns, monotonic_now_ns(), values[0] == 1, values[1] == 1, values[2] == 1};
   }
 
   int queued_edges() const override { return kQueue; }

@@ -64,9 +64,10 @@ class Libgpiod2EdgePort : public EdgePort {
 
   tl::expected<LineLevels, PortError> levels() override {
     std::array<gpiod_line_value, 3> values{};
+    const HostStamp asked_ns = monotonic_now_ns();
     if (gpiod_line_request_get_values(request_.get(), values.data()) != 0) return tl::unexpected(PortError::Closed);
     const auto is_high = [](gpiod_line_value value) { return value == GPIOD_LINE_VALUE_ACTIVE; };
-    return LineLevels{monotonic_now_ns(), is_high(values[0]), is_high(values[1]), is_high(values[2])};
+    return LineLevels{asked_ns, monotonic_now_ns(), is_high(values[0]), is_high(values[1]), is_high(values[2])};
   }
 
   int queued_edges() const override { return queued_edges_; }

@@ -27,8 +27,11 @@ struct EdgeBatch {
   HostStamp complete_ns = 0;     ///< later edges than these have later stamps than this, short of one interrupt [ns]
 };
 
+/// The lines were read at some instant between `asked_ns` and `stamp_ns`; an edge between the two may be in the levels
+/// or not.
 struct LineLevels {
-  HostStamp stamp_ns = 0;  ///< edges older than this are already in the levels [ns]
+  HostStamp asked_ns = 0;  ///< edges older than this are already in the levels [ns]
+  HostStamp stamp_ns = 0;  ///< edges younger than this are not in the levels yet, >= asked_ns [ns]
   bool a = false;
   bool b = false;
   bool index = false;  ///< low where there is no index line

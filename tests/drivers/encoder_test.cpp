@@ -95,7 +95,7 @@ TEST(DiskEncoder, says_standstill_by_speed_zero) {
 
 TEST(EncoderSession, tells_the_speed_of_an_encoder_whose_lines_are_of_uneven_width) {
   EncoderSession session(coarse());
-  session.on_open({0, false, false, false}, 16);
+  session.on_open({0, 0, false, false, false}, 16);
   // B leads; A is high for less than half of the period, and late.
   constexpr drivers::HostStamp kPeriod_ns = 4'000'000;
   for (drivers::HostStamp at_ns = kPeriod_ns; at_ns < 10 * kPeriod_ns; at_ns += kPeriod_ns) {
@@ -326,7 +326,7 @@ TEST(DiskEncoder, warns_of_edges_faster_than_the_queue_allows) {
 
 TEST(EncoderSession, an_edge_from_just_before_a_repeated_angle_keeps_the_order) {
   EncoderSession session{EncoderOptions{}};
-  session.on_open({0, false, false, false}, 16);
+  session.on_open({0, 0, false, false, false}, 16);
   const auto repeated = session.on_edges({{}, 0, 60'000'000});
   const auto edge = session.on_edges({{{59'990'000, drivers::EncoderLine::B, true}}, 0, 60'100'000});
   ASSERT_FALSE(repeated.empty() || edge.empty());
@@ -346,10 +346,10 @@ TEST(EncoderSession, an_index_among_edges_that_were_lost_is_not_believed) {
   for (const auto& edges : {passed, begun}) {
     for (const std::uint64_t lost : {0, 4}) {
       EncoderSession session(coarse());
-      session.on_open({0, false, false, false}, 16);
+      session.on_open({0, 0, false, false, false}, 16);
       session.on_edges({edges, lost, 30});
       EXPECT_EQ(session.wants_levels(), lost > 0);
-      if (lost > 0) session.on_levels({31, true, edges.size() == 3, true});
+      if (lost > 0) session.on_levels({31, 31, true, edges.size() == 3, true});
       session.on_edges({edges.size() == 4 ? std::vector{step(40, 4)} : std::vector{step(40, 3), step(50, 4)}, 0, 50});
       EXPECT_EQ(session.state(), lost > 0 ? EncoderState::Unindexed : EncoderState::Indexed);
     }
@@ -358,11 +358,11 @@ TEST(EncoderSession, an_index_among_edges_that_were_lost_is_not_believed) {
 
 TEST(EncoderSession, edges_older_than_the_levels_are_in_them_already) {
   EncoderSession session(coarse());
-  session.on_open({100, true, true, false}, 16);
+  session.on_open({100, 100, true, true, false}, 16);
   session.on_edges({{{98, EncoderLine::B, true}, {99, EncoderLine::A, true}}, 0, 100});
   EXPECT_FALSE(session.wants_levels());
   session.on_edges({{}, 1, 200});
-  session.on_levels({200, false, false, false});
+  session.on_levels({200, 200, false, false, false});
   session.on_edges({{{198, EncoderLine::B, false}, {199, EncoderLine::A, false}}, 0, 200});
   EXPECT_FALSE(session.wants_levels());
   session.on_edges({{{201, EncoderLine::B, true}}, 0, 201});
@@ -370,11 +370,33 @@ TEST(EncoderSession, edges_older_than_the_levels_are_in_them_already) {
   EXPECT_EQ(session.counters().edges, 1U);
 }
 
+TEST(EncoderSession, an_edge_that_comes_while_the_levels_are_read_is_counted_unless_it_is_in_them) {
+  struct Case {
+    bool is_b_high;
+    std::uint64_t edges;
+  };
+  for (const Case& read : {Case{false, 3}, Case{true, 2}}) {
+    EncoderSession session(coarse());
+    session.on_open({100, 200, false, read.is_b_high, false}, 16);
+    session.on_edges(
+        {{{150, EncoderLine::B, true}, {250, EncoderLine::A, true}, {350, EncoderLine::B, false}}, 0, 400});
+    EXPECT_EQ(session.counters().edges, read.edges);
+    EXPECT_EQ(session.counters().count(EncoderTrouble::MissedPair), 0U);
+
+    session.on_edges({{}, 1, 500});
+    session.on_levels({500, 600, true, read.is_b_high, false});
+    session.on_edges({{{550, EncoderLine::B, true}, {650, EncoderLine::A, false}}, 0, 700});
+    EXPECT_EQ(session.counters().edges, 2 * read.edges - 1);
+    EXPECT_EQ(session.counters().count(EncoderTrouble::MissedPair), 0U);
+    EXPECT_FALSE(session.wants_levels());
+  }
+}
+
 TEST(EncoderSession, random_edges_do_not_break_it) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     sim::Random random(seed);
     EncoderSession session(coarse());
-    session.on_open({1000, false, false, false}, 16);
+    session.on_open({1000, 1000, false, false, false}, 16);
     drivers::HostStamp stamp_ns = 1000, last_ns = 0;
     for (int i = 0; i < 200; ++i) {
       drivers::EdgeBatch batch;
@@ -385,7 +407,8 @@ TEST(EncoderSession, random_edges_do_not_break_it) {
       batch.lost_edges = random.chance(0.02) ? 3 : 0;
       batch.complete_ns = stamp_ns;
       auto events = session.on_edges(batch);
-      if (session.wants_levels()) session.on_levels({stamp_ns, random.chance(0.5), random.chance(0.5), false});
+      if (session.wants_levels())
+        session.on_levels({stamp_ns, stamp_ns, random.chance(0.5), random.chance(0.5), false});
       EXPECT_FALSE(session.wants_levels());
       for (const auto& event : events) {
         const auto* samples = std::get_if<std::vector<drivers::AngleSample>>(&event);

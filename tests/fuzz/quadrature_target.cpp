@@ -100,7 +100,7 @@ class Bench {
 
   void open() {
     LineLevels levels = encoder_.levels();
-    levels.stamp_ns = now_ns_;
+    levels.asked_ns = levels.stamp_ns = now_ns_;
     take(session_.on_open(levels, kQueuedEdges), 0);
   }
   void disconnect() { take(session_.on_disconnect(now_ns_, "removed"), 0); }
@@ -120,7 +120,7 @@ class Bench {
     if (session_.wants_levels()) tell_levels(encoder_.levels());
   }
   void tell_levels(LineLevels levels) {
-    levels.stamp_ns = now_ns_;
+    levels.asked_ns = levels.stamp_ns = now_ns_;
     take(session_.on_levels(levels), 0);
     require(!session_.wants_levels(), "levels settle what was doubtful");
   }
@@ -198,7 +198,7 @@ void step(Bench& bench, FuzzInput& input) {
       return bench.turn(1 + input.byte() % 8, (input.byte() & 1) != 0 ? 1 : -1, false, 1 + input.byte());
     case Levels: {
       const std::uint8_t levels = input.byte();
-      return bench.tell_levels({0, (levels & 1) != 0, (levels & 2) != 0, (levels & 4) != 0});
+      return bench.tell_levels({0, 0, (levels & 1) != 0, (levels & 2) != 0, (levels & 4) != 0});
     }
     case TrueLevels:
       return bench.wait(0);

@@ -86,7 +86,7 @@ class ScriptedLines : public EdgePort {
     return EdgeBatch{edges, lost_edges, now_ns_};
   }
   int queued_edges() const override { return 16; }
-  tl::expected<LineLevels, PortError> levels() override { return LineLevels{now_ns_, true, false, false}; }
+  tl::expected<LineLevels, PortError> levels() override { return LineLevels{now_ns_, now_ns_, true, false, false}; }
 
   std::vector<Edge> edges;
   std::uint64_t lost_edges = 0;

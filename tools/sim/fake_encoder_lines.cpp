@@ -42,7 +42,7 @@ FakeEncoderLines::FakeEncoderLines(const DiskMotion& motion, HostStamp start_ns,
       stamp_ns_{start_ns},
       tick_{static_cast<std::int64_t>(std::floor(motion.angle_at(start_ns) / radians_per_tick_))} {
   const std::int64_t count = tick_ >= 0 ? tick_ / kTicksPerCount : -((-tick_ + kTicksPerCount - 1) / kTicksPerCount);
-  levels_ = {start_ns, level_a(count), level_b(count), floor_mod(tick_, ticks_per_turn_) == kIndexBegin};
+  levels_ = {start_ns, start_ns, level_a(count), level_b(count), floor_mod(tick_, ticks_per_turn_) == kIndexBegin};
 }
 
 std::int64_t FakeEncoderLines::index_end() const { return kIndexEnd + kTicksPerCount * faults_.index_width; }
@@ -79,7 +79,7 @@ drivers::EdgeBatch FakeEncoderLines::take(const DiskMotion& motion, HostStamp no
   }
   std::ranges::stable_sort(batch.edges, {}, &drivers::Edge::stamp_ns);
   batch.complete_ns = now_ns;
-  levels_.stamp_ns = now_ns;
+  levels_.asked_ns = levels_.stamp_ns = now_ns;
   return batch;
 }
 
