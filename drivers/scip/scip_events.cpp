@@ -8,6 +8,8 @@ const char* to_string(ScipState state) {
   switch (state) {
     case ScipState::Opening:
       return "opening";
+    case ScipState::WarmingUp:
+      return "warming up";
     case ScipState::Streaming:
       return "streaming";
     case ScipState::Backoff:

@@ -15,6 +15,7 @@ namespace stairway::drivers {
 
 enum class ScipState {
   Opening,    ///< asking and setting up
+  WarmingUp,  ///< its laser is not ready yet, as for some seconds after power-up; it is asked again
   Streaming,  ///< scans arrive, or are missing for less than the watchdog allows
   Backoff,    ///< waiting before opening again
 };

@@ -70,13 +70,15 @@ std::string ScipSession::take_output() { return std::exchange(output_, {}); }
 
 ScipState ScipSession::state() const {
   if (step_ == Step::Backoff) return ScipState::Backoff;
-  return step_ == Step::Stream ? ScipState::Streaming : ScipState::Opening;
+  if (step_ == Step::Stream) return ScipState::Streaming;
+  return is_warming_up_ ? ScipState::WarmingUp : ScipState::Opening;
 }
 
 void ScipSession::enter(Step step, HostStamp now_ns) {
   const ScipState old_state = state();
   const bool is_first = step_ == Step::Start;
   step_ = step;
+  is_warming_up_ = false;
   if (is_first || state() != old_state) events_.emplace_back(ScipStateEvent{state()});
   is_pausing_ = false;
   attempts_ = 0;
@@ -269,11 +271,9 @@ void ScipSession::check_model() {
 
 void ScipSession::on_time_mode_reply(std::string_view status, HostStamp now_ns) {
   if (status == "00" || status == "02") return enter(Step::ReadTime, now_ns);
+  if (!is_unknown_command(status)) return wait_for_laser(status, now_ns);
   report_refusal(status);
-  if (is_unknown_command(status)) return give_up_time(now_ns);
-  // A sensor that is still getting up denies it for some seconds.
-  is_pausing_ = true;
-  deadline_ns_ = now_ns + to_ns(options_.laser_retry_s);
+  give_up_time(now_ns);
 }
 
 void ScipSession::on_time_reply(const ScipReply& reply, HostStamp now_ns) {
@@ -305,9 +305,16 @@ void ScipSession::on_laser_reply(std::string_view status, HostStamp now_ns) {
     ++failures_;
     return back_off(now_ns);
   }
+  if (!is_unknown_command(status)) return wait_for_laser(status, now_ns);
   report_refusal(status);
   // MD switches the laser on by itself.
-  if (is_unknown_command(status)) return advance(now_ns);
+  advance(now_ns);
+}
+
+void ScipSession::wait_for_laser(std::string_view status, HostStamp now_ns) {
+  // For some seconds after power-up that is no fault.
+  if (attempts_ >= options_.laser_attempts) report_refusal(status);
+  if (!std::exchange(is_warming_up_, true)) events_.emplace_back(ScipStateEvent{state()});
   is_pausing_ = true;
   deadline_ns_ = now_ns + to_ns(options_.laser_retry_s);
 }

@@ -96,6 +96,7 @@ class ScipSession {
   void on_time_reply(const ScipReply& reply, HostStamp now_ns);
   void give_up_time(HostStamp now_ns);
   void on_laser_reply(std::string_view status, HostStamp now_ns);
+  void wait_for_laser(std::string_view status, HostStamp now_ns);
   void on_stream_block(const ScipBlock& block, HostStamp now_ns);
   void on_stream_status(std::string_view status, HostStamp now_ns);
   void on_wrong_length(HostStamp now_ns);
@@ -125,6 +126,7 @@ class ScipSession {
   std::string command_;
   int attempts_ = 0;
   bool is_pausing_ = false;            // before BM is sent again
+  bool is_warming_up_ = false;         // the command of this step was denied, as after power-up
   bool is_reattaching_ = false;        // the sensor was set up before: only its stream is started again
   bool is_intensity_refused_ = false;  // by this sensor, until it is opened again
   bool is_self_checking_ = false;      // inside the stream, since a scan came last

@@ -40,6 +40,11 @@ struct Bench {
     }
     return found;
   }
+  std::vector<ScipState> states() const {
+    std::vector<ScipState> found;
+    for (const ScipStateEvent& event : all<ScipStateEvent>()) found.push_back(event.state);
+    return found;
+  }
   std::uint64_t count(ScipTrouble trouble) const { return session.counters().count(trouble); }
   int sent(const std::string& command) const { return static_cast<int>(std::ranges::count(sensor.commands, command)); }
 
@@ -111,7 +116,30 @@ TEST(ScipSession, waits_for_a_laser_that_needs_seconds_after_power_up) {
   bench.run(8.0);
   EXPECT_EQ(bench.session.state(), ScipState::Streaming);
   EXPECT_EQ(attempts, 5);
-  EXPECT_EQ(bench.count(ScipTrouble::Refused), 4U);
+  EXPECT_EQ(bench.count(ScipTrouble::Refused), 0U);
+  EXPECT_EQ(bench.states(),
+            (std::vector{ScipState::Opening, ScipState::WarmingUp, ScipState::Opening, ScipState::Streaming}));
+}
+
+TEST(ScipSession, complains_once_of_a_laser_that_is_not_ready_after_all_attempts) {
+  ScipOptions options;
+  options.laser_attempts = 4;
+  Bench bench(options);
+  int attempts = 0;
+  bench.sensor.override_reply = [&](const std::string& command) -> std::optional<std::string> {
+    if (command != "BM") return std::nullopt;
+    ++attempts;
+    return encode_reply("BM", "10");
+  };
+  for (int i = 0; i < 1000 && attempts < 4; ++i) {
+    EXPECT_EQ(bench.count(ScipTrouble::Refused), 0U);
+    bench.run(0.01);
+  }
+  EXPECT_EQ(bench.session.state(), ScipState::WarmingUp);
+  bench.run(1.2);
+  EXPECT_EQ(attempts, 4);
+  EXPECT_EQ(bench.session.state(), ScipState::Backoff);
+  EXPECT_EQ(bench.count(ScipTrouble::Refused), 1U);
 }
 
 TEST(ScipSession, accepts_a_laser_that_is_on_already) {
