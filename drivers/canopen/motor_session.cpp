@@ -260,12 +260,7 @@ void MotorSession::watch_step(HostStamp now_ns) {
   if (now_ns < step_deadline_ns_) return;
   switch (step_) {
     case Step::Search:
-      if (!is_muted_) {
-        report(MotorTrouble::HeartbeatLost,
-               "no drive answers as node " + std::to_string(options_.node_id) + " on " + options_.interface +
-                   ": is it powered and wired, are its node number and bit rate right?",
-               now_ns);
-      }
+      if (!is_muted_) tell_missing_drive(now_ns);
       return begin_search(now_ns);
     case Step::StartNode:
       return fail(MotorTrouble::StateTimeout, "the drive does not become operational", now_ns);
@@ -285,6 +280,19 @@ void MotorSession::watch_step(HostStamp now_ns) {
       return begin_search(now_ns);
     default:
       return;
+  }
+}
+
+void MotorSession::tell_missing_drive(HostStamp now_ns) {
+  const std::string node = "node " + std::to_string(options_.node_id) + " on " + options_.interface;
+  if (heartbeat_ns_ >= step_deadline_ns_ - to_ns(options_.boot_timeout_s)) {
+    report(MotorTrouble::SdoTimeout,
+           node + " sends its heartbeat, but answers no request (SDO): is it another kind of device, or in its loader?",
+           now_ns);
+  } else {
+    report(MotorTrouble::HeartbeatLost,
+           "no drive answers as " + node + ": is it powered and wired, are its node number and bit rate right?",
+           now_ns);
   }
 }
 

@@ -125,6 +125,7 @@ class MotorSession {
   void advance_transfers(HostStamp now_ns);
   void watch_drive(HostStamp now_ns);
   void watch_step(HostStamp now_ns);
+  void tell_missing_drive(HostStamp now_ns);
   void send_cyclic(HostStamp now_ns);
   void follow_wanted(HostStamp now_ns);
   void command(std::uint16_t control, std::int32_t target);
@@ -155,8 +156,8 @@ class MotorSession {
   bool is_unsent_told_ = false;  // since a frame was last heard
   HostStamp probe_ns_ = 0;       // when a search takes a drive that has not restarted
 
-  HostStamp heartbeat_ns_ = 0;  // the drive's last
-  HostStamp status_ns_ = 0;     // its last statusword's
+  HostStamp heartbeat_ns_ = std::numeric_limits<HostStamp>::min();  // the drive's last
+  HostStamp status_ns_ = 0;                                         // its last statusword's
   std::uint16_t status_ = 0;
   DriveState drive_state_ = DriveState::Unknown;
   std::optional<DriveState> acted_on_;  // the state that the last command answered

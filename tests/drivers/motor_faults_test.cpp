@@ -30,6 +30,21 @@ TEST(MotorFaults, no_drive_is_searched_without_end_and_found_when_it_comes) {
   EXPECT_TRUE(bench.run_until(MotorState::Running, 5.0));
 }
 
+TEST(MotorFaults, a_node_with_a_heartbeat_that_answers_nothing_is_not_told_as_absent) {
+  MotorSession session{MotorOptions{}};
+  std::string told;
+  for (HostStamp now_ns = 0; now_ns < 5'000 * kMs; now_ns += 10 * kMs) {
+    std::vector<CanArrival> arrivals;
+    if (now_ns % (100 * kMs) == 50 * kMs) arrivals.push_back({now_ns, encode_heartbeat(1, NmtState::PreOperational)});
+    for (const MotorEvent& event : session.on_arrivals(arrivals, now_ns)) {
+      if (const auto* trouble = std::get_if<MotorTroubleEvent>(&event)) told = trouble->detail;
+    }
+    static_cast<void>(session.take_output());
+  }
+  EXPECT_EQ(session.counters().count(MotorTrouble::HeartbeatLost), 0U);
+  EXPECT_NE(told.find("node 1 on can0 sends its heartbeat, but answers no request"), std::string::npos) << told;
+}
+
 TEST(MotorFaults, a_drive_that_was_already_set_up_and_is_not_to_be_reset_is_found) {
   MotorOptions options;
   options.reset_on_start = false;
