@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/usb/usb_byte_port.hpp"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
 
+#include "drivers/usb/acm_line.hpp"
 #include "drivers/usb/usb_path.hpp"
 
 namespace stairway::drivers {
 namespace {
 
 constexpr unsigned kTimeout_ms = 1000;
+constexpr std::uint32_t kRate_baud = 115200;
 constexpr std::uint8_t kToInterface = 0x21;
 constexpr std::uint8_t kSetLineCoding = 0x20;
 constexpr std::uint8_t kSetControlLineState = 0x22;
@@ -48,12 +49,15 @@ int claim(libusb_device_handle* device, int interface) {
   return libusb_claim_interface(device, interface);
 }
 
-// The kernel's driver sends these as well. Some devices stay silent without; others refuse them and do not mind.
-void set_line(libusb_device_handle* device, std::uint16_t interface) {
-  std::array<unsigned char, 7> line_coding{0x00, 0xC2, 0x01, 0x00, 0, 0, 8};  // 115200 baud, 8N1
-  libusb_control_transfer(device, kToInterface, kSetLineCoding, 0, interface, line_coding.data(), line_coding.size(),
-                          kTimeout_ms);
-  libusb_control_transfer(device, kToInterface, kSetControlLineState, kDtrAndRts, interface, nullptr, 0, kTimeout_ms);
+// The kernel's driver sends these as well, and some devices stay silent without.
+std::string set_line(libusb_device_handle* device, std::uint16_t interface) {
+  auto coding = line_coding(kRate_baud);
+  int result = libusb_control_transfer(device, kToInterface, kSetLineCoding, 0, interface, coding.data(), coding.size(),
+                                       kTimeout_ms);
+  if (std::string problem = line_setting_problem(result); !problem.empty()) return problem;
+  result = libusb_control_transfer(device, kToInterface, kSetControlLineState, kDtrAndRts, interface, nullptr, 0,
+                                   kTimeout_ms);
+  return line_setting_problem(result);
 }
 
 }  // namespace
@@ -71,7 +75,8 @@ tl::expected<std::unique_ptr<BytePort>, std::string> UsbBytePort::open(const std
   int error = claim(opened, layout->data_interface);
   if (error == LIBUSB_SUCCESS && layout->control_interface) error = claim(opened, *layout->control_interface);
   if (error != LIBUSB_SUCCESS) return tl::unexpected(reason(error, path));
-  if (layout->control_interface) set_line(opened, *layout->control_interface);
+  const std::string problem = layout->control_interface ? set_line(opened, *layout->control_interface) : "";
+  if (!problem.empty()) return tl::unexpected("the scanner at USB " + path + ": " + problem);
   return std::unique_ptr<BytePort>(new UsbBytePort(context, std::move(handle), *layout));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "drivers/usb/acm_layout.hpp"
+#include "drivers/usb/acm_line.hpp"
 #include "drivers/usb/chunk_queue.hpp"
 #include "drivers/usb/usb_options.hpp"
 #include "drivers/usb/usb_scanner_opener.hpp"
@@ -156,6 +157,19 @@ TEST(UsbScannerOpener, tells_why_there_is_no_scanner_and_tries_again) {
     EXPECT_NE(port.error().find("USB"), std::string::npos) << port.error();
     EXPECT_FALSE(opener.wait(milliseconds(1)));
   }
+}
+
+TEST(AcmLine, coding_is_the_rate_little_endian_and_8n1) {
+  using Coding = std::array<unsigned char, 7>;
+  EXPECT_EQ(line_coding(115200), (Coding{0x00, 0xC2, 0x01, 0x00, 0, 0, 8}));
+  EXPECT_EQ(line_coding(9600), (Coding{0x80, 0x25, 0x00, 0x00, 0, 0, 8}));
+  EXPECT_EQ(line_coding(0x12345678), (Coding{0x78, 0x56, 0x34, 0x12, 0, 0, 8}));
+}
+
+TEST(AcmLine, only_a_refusal_is_no_problem) {
+  for (const int fine : {7, 0, static_cast<int>(LIBUSB_ERROR_PIPE)}) EXPECT_EQ(line_setting_problem(fine), "");
+  for (const int bad : {LIBUSB_ERROR_TIMEOUT, LIBUSB_ERROR_NO_DEVICE, LIBUSB_ERROR_IO})
+    EXPECT_NE(line_setting_problem(bad).find(libusb_strerror(bad)), std::string::npos);
 }
 
 }  // namespace
