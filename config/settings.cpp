@@ -37,13 +37,22 @@ std::string source_problem(const SourceOptions& source, const ipc::BusOptions& o
 
 std::string Settings::problem() const {
   const std::pair<const char*, std::string> problems[] = {
-      {"lcm", lcm.problem()},         {"lidar", lidar.problem()},
-      {"lidar", usb.problem()},       {"lidar", sync_input.problem()},
-      {"disk", disk.problem()},       {"motor", motor.problem()},
-      {"encoder", encoder.problem()}, {"mount", mount.problem()},
-      {"sweep", sweep.problem()},     {"detector", detector.problem()},
-      {"input", input.problem()},     {"simulate", simulate.problem()},
-      {"record", record.problem()},   {"source", source_problem(source, lcm)},
+      {"lcm", lcm.problem()},
+      {"lidar", lidar.problem()},
+      {"lidar", usb.problem()},
+      {"lidar", sync_input.problem()},
+      {"disk", disk.problem()},
+      {"motor", motor.problem()},
+      {"encoder", encoder.problem()},
+      {"mount", mount.problem()},
+      {"sweep", sweep.problem()},
+      {"detector", detector.problem()},
+      {"input", input.problem()},
+      {"simulate", simulate.problem()},
+      {"record", record.problem()},
+      {"source", source_problem(source, lcm)},
+      {"motor", drivers::speed_problem(motor, disk.speed_rad_s())},
+      {"motor", drivers::speed_problem(motor, disk.check_speed_rad_s)},
   };
   for (const auto& [section, problem] : problems) {
     if (!problem.empty()) return std::string(section) + ": " + problem;

@@ -12,6 +12,7 @@ namespace stairway::drivers {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kFairRounding = 0.05;
 
 }  // namespace
 
@@ -63,6 +64,22 @@ std::int32_t MotorUnits::velocity_units(double speed_rad_s) const {
 std::uint32_t MotorUnits::acceleration_units(double acceleration_rad_s2) const {
   constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
   return static_cast<std::uint32_t>(std::clamp(std::round(acceleration_rad_s2 / acceleration_of_unit_), 1.0, kMost));
+}
+
+std::string speed_problem(const MotorOptions& options, double speed_rad_s) {
+  if (MotorUnits(options).velocity_units(speed_rad_s) != 0) return {};
+  return std::to_string(speed_rad_s) +
+         " rad/s is less than half of the drive's unit of speed; turn faster, check velocity_units_per_turn_per_s, or "
+         "give the drive a finer unit";
+}
+
+std::string speed_warning(const MotorOptions& options, double speed_rad_s) {
+  const MotorUnits units(options);
+  const double rounded_rad_s = units.speed_rad_s(units.velocity_units(speed_rad_s));
+  const double share = rounded_rad_s / speed_rad_s - 1.0;
+  if (std::abs(share) <= kFairRounding) return {};
+  return "in whole units of the drive " + std::to_string(speed_rad_s) + " rad/s become " +
+         std::to_string(rounded_rad_s) + " rad/s (" + std::to_string(std::lround(100.0 * share)) + " %)";
 }
 
 }  // namespace stairway::drivers

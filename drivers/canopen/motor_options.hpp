@@ -67,4 +67,12 @@ class MotorUnits {
   double acceleration_of_unit_;
 };
 
+/// Why the drive cannot turn the disk at this speed [rad/s]: it is less than half of the drive's unit of speed. Worded
+/// for the person who asks for the speed; empty when it can.
+std::string speed_problem(const MotorOptions& options, double speed_rad_s);
+
+/// By how much the drive's whole units miss this speed [rad/s], for a person, when it is more than 5 %; else empty.
+/// @pre  speed_problem() is empty.
+std::string speed_warning(const MotorOptions& options, double speed_rad_s);
+
 }  // namespace stairway::drivers

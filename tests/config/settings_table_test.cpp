@@ -68,6 +68,17 @@ TEST(SettingsTable, no_two_keys_share_a_place) {
   }
 }
 
+TEST(Settings, a_disk_too_slow_for_the_units_of_its_drive_is_refused) {
+  Settings settings;
+  settings.motor.velocity_units_per_turn_per_s = 60.0;
+  EXPECT_EQ(settings.problem(), "");
+  settings.disk.period_s = 121.0;
+  EXPECT_EQ(settings.problem().find("motor: "), 0U);
+  settings.disk.period_s = 35.0;
+  settings.disk.check_speed_rad_s = 0.05;
+  EXPECT_EQ(settings.problem().find("motor: "), 0U);
+}
+
 TEST(SettingsTable, defaults_lie_within_their_ranges_and_fit_together) {
   Settings settings;
   EXPECT_EQ(settings.problem(), "");

@@ -263,6 +263,20 @@ TEST(MotorSetup, bounds_of_the_units) {
   EXPECT_NEAR(MotorUnits(options).speed_rad_s(-1000), 2 * std::numbers::pi, 1e-12);
 }
 
+TEST(MotorOptions, a_speed_below_half_a_unit_is_refused_and_a_coarse_one_is_warned_of) {
+  MotorOptions options;
+  options.velocity_units_per_turn_per_s = 60;
+  const double unit_rad_s = 2 * std::numbers::pi / 60;
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_NE(speed_problem(options, sign * 0.49 * unit_rad_s).find("velocity_units_per_turn_per_s"),
+              std::string::npos);
+    EXPECT_EQ(speed_problem(options, sign * 0.51 * unit_rad_s), "");
+    EXPECT_NE(speed_warning(options, sign * 1.4 * unit_rad_s).find("(-29 %)"), std::string::npos);
+    EXPECT_NE(speed_warning(options, sign * 1.9 * unit_rad_s).find("(5 %)"), std::string::npos);
+    EXPECT_EQ(speed_warning(options, sign * 2.05 * unit_rad_s), "");
+  }
+}
+
 TEST(MotorOptions, problems_name_the_setting) {
   EXPECT_EQ(MotorOptions{}.problem(), "");
   const auto problem = [](auto change) {

@@ -78,6 +78,17 @@ TEST_F(CommandDeskTest, speed_is_kept_through_a_rest) {
   EXPECT_EQ(source.orders.back().speed_rad_s, -0.5);
 }
 
+TEST_F(CommandDeskTest, speed_that_is_none_for_the_drive_is_refused) {
+  config::Settings coarse;
+  coarse.motor.velocity_units_per_turn_per_s = 1.0;
+  CommandDesk coarse_desk(coarse);
+  coarse_desk.receive({kNow_us, 1, CommandAction::SetSpeed, 0.2});
+  const auto ack = coarse_desk.obey(source, kNow_us).at(0);
+  EXPECT_EQ(ack.result, CommandResult::BadValue);
+  EXPECT_NE(ack.text.find("less than half of the drive's unit"), std::string::npos) << ack.text;
+  EXPECT_TRUE(source.orders.empty());
+}
+
 TEST_F(CommandDeskTest, what_cannot_be_is_refused_with_the_reason_and_changes_nothing) {
   struct Case {
     const char* what;

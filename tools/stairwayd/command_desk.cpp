@@ -30,6 +30,7 @@ double turn_s(double speed_rad_s) { return kTurn_rad / std::abs(speed_rad_s); }
 CommandDesk::CommandDesk(const config::Settings& settings)
     : max_age_s_(settings.command.max_age_s),
       max_sweep_s_(settings.sweep.max_duration_s),
+      motor_(settings.motor),
       mode_(settings.disk.mode),
       speed_rad_s_(settings.disk.speed_rad_s()) {}
 
@@ -97,7 +98,8 @@ std::string CommandDesk::value_problem(const ipc::CommandMessage& command) const
   if (command.action == CommandAction::Unknown) return "no such action in this version";
   if (command.action != CommandAction::SetSpeed) return {};
   const double period_s = turn_s(command.speed_rad_s);
-  if (period_s >= kShortestTurn_s && period_s <= max_sweep_s_) return {};
+  if (period_s >= kShortestTurn_s && period_s <= max_sweep_s_)
+    return drivers::speed_problem(motor_, command.speed_rad_s);
   return fmt::format(
       "a turn must take {:g} to {:g} s (sweep.max_duration_s), so the speed must be {:.3f} to {:.3f} deg/s, or the "
       "same clockwise",

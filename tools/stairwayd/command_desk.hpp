@@ -51,6 +51,7 @@ class CommandDesk {
 
   const double max_age_s_;
   const double max_sweep_s_;
+  const drivers::MotorOptions motor_;
   std::atomic<drivers::DiskMode> mode_;
   double speed_rad_s_;
   std::uint64_t next_sweep_ = 0;    // the first that is not known to have ended

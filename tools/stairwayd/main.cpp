@@ -198,6 +198,8 @@ tl::expected<tools::RecordingFacts, ipc::LogError> prepare_replay(CommandLine& l
 std::unique_ptr<daemon::MeasurementSource> make_source(const config::Settings& settings) {
   if (settings.source.kind == config::SourceKind::Lcm)
     return std::make_unique<daemon::LcmSource>(settings.source.bus(settings.lcm));
+  if (const std::string warning = drivers::speed_warning(settings.motor, settings.disk.speed_rad_s()); !warning.empty())
+    daemon::log::warning("disk motor: " + warning);
   return std::make_unique<daemon::HardwareSource>(settings, daemon::hardware_ports(settings),
                                                   daemon::utime_of_monotonic_us);
 }
