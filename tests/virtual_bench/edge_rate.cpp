@@ -5,6 +5,7 @@
 #include <pthread.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -110,6 +111,26 @@ Measurement measure(const drivers::EncoderOptions& options, Pulls& pulls, double
   return measurement;
 }
 
+int faults_of(const drivers::EncoderCounters& counters) {
+  using drivers::EncoderTrouble;
+  return static_cast<int>(counters.count(EncoderTrouble::MissedPair) +
+                          counters.count(EncoderTrouble::IllegalTransition) +
+                          counters.count(EncoderTrouble::IndexDeviation));
+}
+
+/// The highest reached rates without a lost edge, of runs without and with stalls; 0 when there was none.
+struct Highest {
+  double unstalled_hz = 0.0;
+  double stalled_hz = 0.0;
+
+  void take(const Measurement& m, bool is_stalled) {
+    const bool is_whole = m.sent == static_cast<int>(m.counters.edges) && m.counters.lost_edges == 0;
+    if (!is_whole || faults_of(m.counters) > 0) return;
+    double& highest_hz = is_stalled ? stalled_hz : unstalled_hz;
+    highest_hz = std::max(highest_hz, m.reached_hz);
+  }
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -128,23 +149,26 @@ int main(int argc, char** argv) {
     Pulls pulls(lines);
     fmt::print("{:<16} {:>8} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "access", "stall ms", "wanted /s",
                "reached /s", "sent", "missing", "told", "faults", "stalls");
+    std::string summary;
     for (const auto access : {drivers::GpioAccess::Libgpiod, drivers::GpioAccess::Kernel}) {
       options.access = access;
+      const std::string name = access == drivers::GpioAccess::Kernel ? "kernel" : drivers::libgpiod_name();
+      Highest highest;
       for (const int stall : stalls) {
         for (const double rate : rates) {
           const Measurement m = measure(options, pulls, rate, std::chrono::milliseconds(stall));
-          using drivers::EncoderTrouble;
-          const auto faults = m.counters.count(EncoderTrouble::MissedPair) +
-                              m.counters.count(EncoderTrouble::IllegalTransition) +
-                              m.counters.count(EncoderTrouble::IndexDeviation);
-          fmt::print("{:<16} {:>8} {:>10} {:>10.0f} {:>8} {:>8} {:>8} {:>8} {:>8}\n",
-                     access == drivers::GpioAccess::Kernel ? "kernel" : drivers::libgpiod_name(), stall,
+          highest.take(m, stall > 0);
+          fmt::print("{:<16} {:>8} {:>10} {:>10.0f} {:>8} {:>8} {:>8} {:>8} {:>8}\n", name, stall,
                      rate > 0.0 ? fmt::format("{:.0f}", rate) : "most", m.reached_hz, m.sent,
-                     m.sent - static_cast<int>(m.counters.edges), m.counters.lost_edges, faults, m.stalls);
+                     m.sent - static_cast<int>(m.counters.edges), m.counters.lost_edges, faults_of(m.counters),
+                     m.stalls);
           std::fflush(stdout);
         }
       }
+      summary += fmt::format("{}: highest rate without a lost edge: {:.0f} /s, with stalls {:.0f} /s\n", name,
+                             highest.unstalled_hz, highest.stalled_hz);
     }
+    fmt::print("{}", summary);
   } catch (const std::exception& error) {
     fmt::print(stderr, "edge_rate: {}\n", error.what());
     return 1;
