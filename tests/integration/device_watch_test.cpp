@@ -130,7 +130,7 @@ TEST(DeviceWatch, scans_of_a_resting_disk_are_left_out_and_the_next_one_begins_a
   DeviceWatch watch({});
   watch.take(numbered_scan(1), 1);
   watch.order({false, 0.2}, 2);
-  EXPECT_FALSE(watch.is_motor_wanted());
+  EXPECT_EQ(watch.motor_wish(), MotorWish::Off);
   watch.take(numbered_scan(2), 3);
   watch.take(MotorStateEvent{MotorState::Stopped}, 3);
   watch.order({true, 0.2}, 4);

@@ -205,6 +205,23 @@ TEST(RobotFaults, wrong_unit_is_found_by_the_self_check_before_the_disk_turns_fa
   EXPECT_EQ(robot.robot().disk_speed_rad_s(), 0.0);
 }
 
+TEST(RobotFaults, disk_that_turns_against_the_command_is_stopped_quickly_and_tried_again_later) {
+  config::Settings settings = quick();
+  settings.motor.deceleration_rad_s2 = 0.3;  // an ordinary stop takes 5 s
+  Robot robot(settings);
+  ASSERT_TRUE(robot.comes_to_a_good_sweep());
+  robot.tamper([](const Parts& parts) { parts.drive.faults().is_velocity_reversed = true; });
+  const auto is_paused = [&] { return robot.states[Device::Disk].reason == "wrong direction"; };
+  ASSERT_TRUE(robot.run_until(is_paused, 20.0));
+  EXPECT_TRUE(robot.run_until([&] { return robot.robot().disk_speed_rad_s() == 0.0; }, 1.0));
+  EXPECT_TRUE(robot.run_until([&] { return robot.states[Device::Motor].text == "stopped"; }, 3.0));
+  robot.tamper([](const Parts& parts) {
+    EXPECT_NE(parts.drive.state(), drivers::DriveState::Enabled);
+    parts.drive.faults().is_velocity_reversed = false;
+  });
+  EXPECT_TRUE(robot.comes_to_scan(settings.disk.retry_s + 30.0));
+}
+
 TEST(RobotFaults, stop_ends_with_a_disk_that_stands_and_a_drive_that_is_off) {
   Robot robot;
   ASSERT_TRUE(robot.comes_to_scan());

@@ -113,7 +113,7 @@ void DeviceWatch::take(drivers::MotorEvent event, HostStamp now_ns) {
                  [&](const drivers::MotorStateEvent& change) {
                    is_drive_running_ = change.state == drivers::MotorState::Running;
                    supervisor_.on_motor(change.state, now_ns);
-                   const bool is_off = !is_turning_ && change.state == drivers::MotorState::Stopped;
+                   const bool is_off = motor_wish() != MotorWish::On && change.state == drivers::MotorState::Stopped;
                    set(Device::Motor, is_drive_running_ || is_off, to_string(change.state), now_ns);
                  },
              },
@@ -144,6 +144,11 @@ void DeviceWatch::order(const DiskOrder& order, HostStamp now_ns) {
   is_turning_ = order.is_turning;
 }
 
+MotorWish DeviceWatch::motor_wish() const {
+  if (is_reversed_) return MotorWish::QuickStop;
+  return is_turning_ ? MotorWish::On : MotorWish::Off;
+}
+
 void DeviceWatch::pass_time(HostStamp now_ns) {
   for (drivers::DiskEvent& event : supervisor_.on_time(now_ns)) {
     std::visit(Overloaded{
@@ -151,6 +156,8 @@ void DeviceWatch::pass_time(HostStamp now_ns) {
                      report(Device::Disk, to_string(trouble.trouble), std::move(trouble.detail), now_ns);
                    },
                    [&](drivers::DiskStateEvent& change) {
+                     is_reversed_ = change.state == drivers::DiskState::Paused && change.problem &&
+                                    change.problem->trouble == drivers::DiskTrouble::Reversed;
                      const bool is_checking = change.state == drivers::DiskState::Checking;
                      if (change.problem) {
                        return tell(Device::Disk, Condition::Failed, change.problem->detail,

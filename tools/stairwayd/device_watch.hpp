@@ -14,6 +14,7 @@
 #include "drivers/encoder/encoder_events.hpp"
 #include "drivers/scip/scip_events.hpp"
 #include "tools/stairwayd/measurement_source.hpp"
+#include "tools/stairwayd/motor_rest.hpp"
 
 namespace stairway::daemon {
 
@@ -47,8 +48,8 @@ class DeviceWatch {
 
   /// For the motor [rad/s].
   double wanted_speed_rad_s() const { return supervisor_.wanted_speed_rad_s(); }
-  /// Whether the motor shall be on.
-  bool is_motor_wanted() const { return is_turning_; }
+  /// Off while the disk shall rest; a quick stop while it is paused because it turned against the command.
+  MotorWish motor_wish() const;
 
  private:
   struct Line {
@@ -69,6 +70,7 @@ class DeviceWatch {
   drivers::DiskOptions disk_;
   drivers::DiskSupervisor supervisor_;
   bool is_turning_;
+  bool is_reversed_ = false;
   std::uint64_t sequence_shift_ = 0;
   bool is_drive_running_ = false;
   std::array<Line, kDevices.size()> lines_;

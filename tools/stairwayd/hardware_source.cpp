@@ -47,7 +47,7 @@ HardwareSource::HardwareSource(const config::Settings& settings, DevicePorts por
       queue_(kWaitingNews),
       watch_(settings),
       dead_man_(now_ns_()),
-      is_motor_wanted_(watch_.is_motor_wanted()) {
+      motor_wish_(watch_.motor_wish()) {
   if (settings_.disk.angle_source == drivers::AngleSource::Encoder) {
     encoder_ = std::jthread([this, opener = std::move(ports.encoder)](std::stop_token stop) mutable {
       run_encoder(std::move(stop), std::move(opener));
@@ -81,6 +81,7 @@ std::vector<SourceEvent> HardwareSource::read(std::chrono::milliseconds timeout)
   const bool was_braked = dead_man_.was_missed();
   if (was_braked) watch_.expect_ramp(now_ns);
   watch_.pass_time(now_ns);
+  motor_wish_ = watch_.motor_wish();
   wanted_speed_rad_s_ = watch_.wanted_speed_rad_s();
   dead_man_.note(now_ns);
   std::vector<SourceEvent> events = watch_.take_events();
@@ -94,7 +95,7 @@ std::vector<SourceEvent> HardwareSource::read(std::chrono::milliseconds timeout)
 
 std::string HardwareSource::order(const DiskOrder& order) {
   watch_.order(order, now_ns_());
-  is_motor_wanted_ = watch_.is_motor_wanted();
+  motor_wish_ = watch_.motor_wish();
   wanted_speed_rad_s_ = watch_.wanted_speed_rad_s();
   return {};
 }
@@ -139,7 +140,7 @@ void HardwareSource::run_motor(std::stop_token stop, drivers::PortOpener<drivers
   MotorRest rest;
   bool is_braking = false;
   while (!stop.stop_requested()) {
-    rest.follow(is_motor_wanted_, motor);
+    rest.follow(motor_wish_, motor);
     motor.set_speed(allowed_speed_rad_s(is_braking));
     push(motor.poll(kMotorPoll));
   }

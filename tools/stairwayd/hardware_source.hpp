@@ -68,7 +68,7 @@ class HardwareSource final : public MeasurementSource {
   DeviceWatch watch_;
   DeadMan dead_man_;
   std::atomic<double> wanted_speed_rad_s_ = 0.0;
-  std::atomic<bool> is_motor_wanted_;
+  std::atomic<MotorWish> motor_wish_;
 
   // The motor's ends first.
   std::jthread encoder_;

@@ -82,7 +82,7 @@ std::vector<SourceEvent> SimulatedSource::read(std::chrono::milliseconds timeout
   const auto step = std::chrono::ceil<nanoseconds>(speed_ > 0.0 ? std::min(limit, longest) : longest);
   auto scanner_events = scanner_->poll(step);
 
-  motor_rest_.follow(watch_.is_motor_wanted(), *motor_);
+  motor_rest_.follow(watch_.motor_wish(), *motor_);
   motor_->set_speed(watch_.wanted_speed_rad_s());
   take_all(*motor_, nanoseconds::zero(), robot_, watch_);
   if (encoder_) take_all(*encoder_, nanoseconds::zero(), robot_, watch_);
