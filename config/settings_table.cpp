@@ -63,7 +63,9 @@ void add_disk_settings(std::vector<Entry>& table, drivers::DiskOptions& disk) {
       .choice("mode", disk.mode, {"continuous", "single", "idle"},
               "after the start: sweep after sweep, one whole sweep, or at rest with the motor off; commands change it")
       .choice("angle_source", disk.angle_source, {"encoder", "drive"},
-              "whose angles place the beams; drive is for a robot without an encoder")
+              "whose angles place the beams; drive is for a robot without an encoder, and for a drive that keeps its "
+              "position "
+              "without power")
       .real("drive_zero", disk.drive_zero_rad, kDegree, {-180, 180},
             "the drive's angle where the disk's is 0; with the drive as angle source the cloud is turned by its error")
       .real("idle_after", disk.idle_after_s, kSecond, {0, 86400},
