@@ -3,7 +3,6 @@
 #include "detector/stair_beams.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -30,10 +29,12 @@ struct Candidate {
   std::uint64_t key = 0;  // of its own, from its place alone
 };
 
-std::uint64_t scrambled(double a, double b, double c) {
+// As good as random, yet told by the place alone, of which rounding is cut off.
+std::uint64_t scrambled(const Eigen::Vector3d& place) {
+  constexpr double kRounded_m = 1e-5;
   std::uint64_t hash = 0;
-  for (const double value : {a, b, c}) {
-    hash ^= std::bit_cast<std::uint64_t>(value);
+  for (const double value : place) {
+    hash ^= static_cast<std::uint64_t>(std::llround(value / kRounded_m));
     hash *= 0x9E3779B97F4A7C15ULL;
     hash ^= hash >> 29;
   }
@@ -110,7 +111,8 @@ class BeamSelection {
                 double spot_radius_rad)
       : sensor_(sensor), faces_(faces), sides_(sides), spot_radius_rad_(spot_radius_rad) {}
 
-  void look_at(const StepPoint& p) {
+  /// @param place  of the same point, in a frame that does not change while a flight is fitted.
+  void look_at(const StepPoint& p, const Eigen::Vector3d& place) {
     Candidate c{.beam = {.u = p.u - sensor_.u, .v = p.v - sensor_.v, .z = p.z - sensor_.z}};
     const double plane_m = std::hypot(c.beam.u, c.beam.z);
     const double range_m = std::hypot(plane_m, c.beam.v);
@@ -125,7 +127,7 @@ class BeamSelection {
     if (is_single && kind == VisibleFace::Kind::Beyond) return background_.add(c, faces_);
     if (is_in_the_way(c, plane_m)) obstacles_.insert(cell_of(c));
     if (!passes_between_sides(c, plane_m)) return;
-    c.key = scrambled(p.u, p.v, p.z);
+    c.key = scrambled(place);
     (is_single ? on_planes_ : on_edges_).push_back(c);
   }
 
@@ -196,9 +198,10 @@ class BeamSelection {
 
   void take(std::vector<Candidate>& candidates, int most, std::vector<StairBeam>& beams) const {
     std::erase_if(candidates, [&](const Candidate& c) { return is_beside_obstacle(c); });
-    const std::size_t stride = 1 + candidates.size() / static_cast<std::size_t>(most);
+    constexpr double kKeys = 0x1p64;
+    const double share = static_cast<double>(most) / static_cast<double>(std::max<std::size_t>(1, candidates.size()));
     for (Candidate& c : candidates) {
-      if (c.key % stride != 0) continue;
+      if (static_cast<double>(c.key) > share * kKeys) continue;
       c.beam.backdrop = background_.at(c, faces_);
       beams.push_back(c.beam);
     }
@@ -221,7 +224,7 @@ std::vector<StairBeam> select_beams(const StairCorridor& corridor, const StepFra
                                     int most_on_edges, int most_on_planes) {
   if (faces.empty()) return {};
   BeamSelection selection(sensor, faces, sides, spot_radius_rad);
-  for (const Eigen::Vector3d& point : corridor.points()) selection.look_at(frame.to_step(point));
+  for (const Eigen::Vector3d& point : corridor.points()) selection.look_at(frame.to_step(point), point);
   return selection.beams(most_on_edges, most_on_planes);
 }
 

@@ -28,7 +28,7 @@ struct StairBeam {
 /// @param frame  of the flight's lowest step; `sensor` in its axes.
 /// @param faces  of the model from there, visible_faces().
 /// @param sides  of the flight along v.
-/// @param most_on_edges   beams whose spot lies near an edge; of more every so many-th is taken, > 0.
+/// @param most_on_edges   beams whose spot lies near an edge; of more about so many are drawn, > 0.
 /// @param most_on_planes  beams whose spot lies on one face, likewise.
 /// Cost: O(n) in the points of the corridor.
 std::vector<StairBeam> select_beams(const StairCorridor& corridor, const StepFrame& frame, const StepPoint& sensor,
