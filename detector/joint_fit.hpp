@@ -20,7 +20,7 @@ struct JointFitOptions {
   int passes = 6;            ///< of measuring all steps and fitting the model to them
   int max_unseen_steps = 2;  ///< the stairway ends after this many steps in a row of which no point is found
 
-  double max_sigma_m = 0.010;  ///< of step height and depth; what is less certain than this is no stairway to climb [m]
+  double max_sigma_m = 0.005;  ///< of step height and depth; what is less certain than this is no stairway to climb [m]
   double min_seen_share = 0.6;  ///< of the steps from the first to the last seen, so many must show points
 
   std::string problem() const;

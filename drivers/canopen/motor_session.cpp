@@ -284,14 +284,15 @@ void MotorSession::watch_step(HostStamp now_ns) {
 }
 
 void MotorSession::tell_missing_drive(HostStamp now_ns) {
-  const std::string node = "node " + std::to_string(options_.node_id) + " on " + options_.interface;
+  const std::string place = std::to_string(options_.node_id) + " on " + options_.interface;
   if (heartbeat_ns_ >= step_deadline_ns_ - to_ns(options_.boot_timeout_s)) {
     report(MotorTrouble::SdoTimeout,
-           node + " sends its heartbeat, but answers no request (SDO): is it another kind of device, or in its loader?",
+           "node " + place +
+               " sends its heartbeat, but answers no request (SDO): is it another kind of device, or in its loader?",
            now_ns);
   } else {
     report(MotorTrouble::HeartbeatLost,
-           "no drive answers as " + node + ": is it powered and wired, are its node number and bit rate right?",
+           "no drive answers as node " + place + ": is it powered and wired, are its node number and bit rate right?",
            now_ns);
   }
 }

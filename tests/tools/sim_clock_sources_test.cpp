@@ -74,7 +74,7 @@ TEST(ClockSources, time_adjustment_that_is_denied_while_booting_is_asked_for_aga
   SensorBench bench(sensor, by_time_adjustment());
   bench.sensor.inject(SensorFault::TimeRefused, 4);
   ASSERT_GE(bench.time_to_scans(100, 12.0), 0.0);
-  EXPECT_EQ(bench.count(ScipTrouble::Refused), 4U);
+  EXPECT_EQ(bench.count(ScipTrouble::Refused), 0U) << "a sensor that boots is no trouble";
   EXPECT_EQ(bench.session.clock_quality().source, ClockSource::TimeAdjustment);
 }
 
