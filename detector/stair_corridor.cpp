@@ -59,7 +59,14 @@ StairCorridor::StairCorridor(const scan::PointCloud& cloud, const StairModel& mo
     pick(through_cylinder(model, sides));
   } else {
     pick(through_slab(model, sides));
+    if (sensor_) fan_.emplace(points_, *sensor_, -model.descent);
   }
+}
+
+std::span<const Eigen::Vector3d> StairCorridor::points_at(std::span<const Eigen::Vector3d> corners) const {
+  if (!fan_) return points_;
+  const auto [first, last] = fan_->within_or_behind(corners);
+  return std::span(points_).subspan(first, last - first);
 }
 
 }  // namespace stairway::detect

@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "detector/extents.hpp"
+#include "detector/sight_fan.hpp"
 #include "detector/stair_model.hpp"
 #include "scan_assembly/point_cloud.hpp"
 
@@ -22,12 +24,16 @@ class StairCorridor {
   StairCorridor(const scan::PointCloud& cloud, const StairModel& model, const Interval& sides);
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  /// A part of them that holds every one that lies within the hull of the corners or is seen past it. Small for a small
+  /// thing if the stairway is straight and the sensor known.
+  std::span<const Eigen::Vector3d> points_at(std::span<const Eigen::Vector3d> corners) const;
   /// Where the sensor stood, in the frame of the cloud; nothing when unknown or more than one place.
   const std::optional<Eigen::Vector3d>& sensor() const { return sensor_; }
 
  private:
   std::vector<Eigen::Vector3d> points_;
   std::optional<Eigen::Vector3d> sensor_;
+  std::optional<SightFan> fan_;
 };
 
 }  // namespace stairway::detect

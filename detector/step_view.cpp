@@ -17,12 +17,25 @@ StepView::StepView(const StairCorridor& corridor, const StairModel& model, const
   const StepFrame next = model.step(number + 1);
   next_ = frame_.to_step(next.nosing);
   next_slope_ = next.left().dot(-frame_.descent) / next.left().dot(frame_.left());
-  for (const Eigen::Vector3d& point : corridor.points())
+  for (const Eigen::Vector3d& point : corridor.points_at(surroundings()))
     if (const StepPoint p = frame_.to_step(point); is_worth_a_look(p)) points_.push_back(p);
 }
 
+// The corners of a box that holds all places where is_worth_a_look() looks for points or lines of sight.
+std::array<Eigen::Vector3d, 8> StepView::surroundings() const {
+  const Interval beside{sides_.low - kEndReach_m, sides_.high + kEndReach_m};
+  const Interval along{std::min(-kLandingFar * model_.depth_m, front_u()) - margin_m(),
+                       std::max({depth_at(beside.low), depth_at(beside.high), margin_m(), kEndBand_m, front_u()})};
+  const Interval up{-model_.height_m - margin_m(), margin_m()};
+  std::array<Eigen::Vector3d, 8> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    corners[i] = frame_.from_step({(i & 1U) != 0 ? along.low : along.high, (i & 2U) != 0 ? beside.low : beside.high,
+                                   (i & 4U) != 0 ? up.low : up.high});
+  return corners;
+}
+
 bool StepView::is_worth_a_look(const StepPoint& p) const {
-  const double margin = 2.0 * options_.search_m;
+  const double margin = margin_m();
   const auto is_beside = [&](double v) { return v > sides_.low - kEndReach_m && v < sides_.high + kEndReach_m; };
   const auto is_near = [&](double v, double z) { return is_beside(v) && z > -model_.height_m - margin && z < margin; };
   const double first_u = std::abs(p.z) < margin ? -kLandingFar * model_.depth_m : front_u() - margin;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace stairway::detect {
 /// One step as the sensor sees it: the points near it or seen past its edges, in the step's own axes.
 class StepView {
  public:
-  /// Cost: O(n) in the points of the corridor. `options` must outlive the view.
+  /// Cost: O(n) in the points of the corridor that lie at the step. `options` must outlive the view.
   StepView(const StairCorridor& corridor, const StairModel& model, const Interval& sides, int number,
            const StepMeasurementOptions& options);
 
@@ -49,6 +50,8 @@ class StepView {
   bool are_enough(std::size_t points) const { return points >= static_cast<std::size_t>(options_.min_points); }
 
  private:
+  double margin_m() const { return 2.0 * options_.search_m; }
+  std::array<Eigen::Vector3d, 8> surroundings() const;
   bool is_worth_a_look(const StepPoint& p) const;
 
   StairModel model_;
