@@ -20,6 +20,8 @@ namespace {
 constexpr std::array kWideKernels_sigmas{12.0, 9.0};
 constexpr std::array kKernels_sigmas{7.0, 5.0};
 constexpr std::size_t kFewestBeams = 100;
+constexpr double kLittle = 0.3;  // of chi^2: where spots meet edges the cost is rougher than that
+constexpr double kReach = 1e-4;  // of derivatives, in units of kFlightScale
 constexpr int kFewOf = 4;  // of so many beams one makes the first fit
 
 std::vector<double> finite_ranges(const Eigen::VectorXd& rows) {
@@ -97,9 +99,8 @@ class BeamFitter {
  private:
   void close_in() {
     constexpr int kMostRounds = 12;
-    constexpr double kSettled = 0.05;  // sigmas
-    for (const double kernel : kKernels_sigmas) fit_flight(kernel);
-    for (int round = 0; round < kMostRounds && fit_flight(kKernels_sigmas.back()) > kSettled; ++round) {
+    fit_flight(kKernels_sigmas.front());
+    for (int round = 0; round < kMostRounds && fit_flight(kKernels_sigmas.back()) > kLittle; ++round) {
     }
   }
 
@@ -127,10 +128,20 @@ class BeamFitter {
     }
   }
 
-  // One step of Gauss and Newton, as far towards its solution as the robust cost falls. Returns how far, in sigmas.
+  // Steps of Gauss and Newton, each as far towards its solution as the robust cost falls, which share the derivatives
+  // of the first as long as they get on. Returns by how much it fell.
   double fit_flight(double kernel_sigmas) {
-    constexpr double kReach = 1e-4;
-    const Eigen::VectorXd r = residuals_.of(flight_);
+    constexpr int kMostSteps = 4;
+    Eigen::VectorXd r = residuals_.of(flight_);
+    const Eigen::MatrixXd J = residuals_.derived(flight_, r, is_free_, kReach);
+    double sum = 0.0;
+    double gain = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < kMostSteps && gain > kLittle; ++step) sum += gain = step_towards_beams(r, J, kernel_sigmas);
+    return sum;
+  }
+
+  // Moves the flight, and the rows `r` with it. Returns by how much the robust cost falls.
+  double step_towards_beams(Eigen::VectorXd& r, const Eigen::MatrixXd& J, double kernel_sigmas) {
     NormalEquations normal{Eigen::MatrixXd::Zero(kFlightUnknowns, kFlightUnknowns),
                            Eigen::VectorXd::Zero(kFlightUnknowns)};
     for (std::size_t i = 0; i < kFlightUnknowns; ++i) {
@@ -139,19 +150,20 @@ class BeamFitter {
       normal.information(k, k) = prior * prior;
       normal.gradient[k] = (flight_.unknowns[k] - usual_[k]) / kFlightScale[i] * normal.information(k, k);
     }
-    add_rows(r, residuals_.derived(flight_, r, is_free_, kReach), kernel_sigmas, kReach, normal);
+    add_rows(r, J, kernel_sigmas, kReach, normal);
     const Eigen::Map<const FlightUnknowns> scale(kFlightScale.data());
-    FlightUnknowns moved = FlightUnknowns::Zero();
+    double gain = 0.0;
     damped_descent(normal, [&](const Eigen::VectorXd& change) {
-      const FlightUnknowns scaled = scale.cwiseProduct(FlightUnknowns(change));
-      const MovedFlight next = flight_.changed(scaled);
-      if (robust_gain(residuals_.of(next), r, kernel_sigmas) < 0.0) return false;
+      const MovedFlight next = flight_.changed(scale.cwiseProduct(FlightUnknowns(change)));
+      Eigen::VectorXd next_r = residuals_.of(next);
+      gain = std::max(0.0, robust_gain(next_r, r, kernel_sigmas));
+      if (gain == 0.0) return false;
       flight_ = next;
-      moved = scaled;
+      r = std::move(next_r);
       return true;
     });
     sigmas_ = scale.cwiseProduct(FlightUnknowns(normal.sigmas()));
-    return moved.cwiseQuotient(sigmas_).cwiseAbs().maxCoeff();
+    return gain;
   }
 
   // Every step on its own, the flight as a whole held.

@@ -19,9 +19,9 @@ std::vector<BeamResiduals::Sight> BeamResiduals::sights(const MovedFlight& fligh
   sights.reserve(beams_.size());
   for (const StairBeam& beam : beams_) {
     const double u = beam.u * cosine + beam.v * sine;
-    const double squared = u * u + beam.z * beam.z;
-    const double whole = beam.u * beam.u + beam.v * beam.v + beam.z * beam.z;
-    sights.push_back({std::atan2(beam.z, u), std::sqrt(squared), std::sqrt(whole / squared)});
+    const double plane_m = std::sqrt(u * u + beam.z * beam.z);
+    const double whole_m = std::sqrt(beam.u * beam.u + beam.v * beam.v + beam.z * beam.z);
+    sights.push_back({{u, beam.z, plane_m}, plane_m, whole_m / plane_m});
   }
   return sights;
 }
@@ -31,9 +31,9 @@ Eigen::Vector2d BeamResiduals::rows_of(const StairBeam& beam, const Sight& sight
   constexpr double kShareSigma = 0.3;   // of the share, where the larger of two surfaces answers alone
   constexpr double kAnyOther_m = 0.10;  // an echo farther from both was something else's
   const Eigen::Vector2d unknown(std::numeric_limits<double>::quiet_NaN(), 0.0);
-  const auto [elevation_rad, plane_m, scale] = sight;
+  const auto& [elevation, plane_m, scale] = sight;
   const SpotEcho echo =
-      echo_of(look.faces, elevation_rad, look.radius_rad * scale, beam.backdrop, pulse_separation_m_ / scale);
+      echo_of(look.faces, elevation, look.radius_rad * scale, beam.backdrop, pulse_separation_m_ / scale);
   if (!echo.is_known) return unknown;
   const auto over_sigma = [&](double off_m) {
     const double uneven_m = kUnevenSpot * echo.spread_m * scale;

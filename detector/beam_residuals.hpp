@@ -51,7 +51,7 @@ class BeamResiduals {
   };
   /// A beam within the plane of the profile, which the flight's heading turns.
   struct Sight {
-    double elevation_rad = 0.0;
+    Elevation elevation;
     double plane_m = 0.0;  ///< how far it went there
     double scale = 1.0;    ///< and in space, by this factor
   };

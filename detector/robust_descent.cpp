@@ -46,7 +46,7 @@ void add_rows(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, double kernel_
 Eigen::VectorXd NormalEquations::sigmas() const { return information.inverse().diagonal().cwiseMax(0.0).cwiseSqrt(); }
 
 void damped_descent(const NormalEquations& normal, const std::function<bool(const Eigen::VectorXd&)>& take) {
-  for (const double damping : {0.0, 0.03, 0.3, 3.0, 30.0}) {
+  for (const double damping : {0.0, 0.3, 3.0}) {
     Eigen::MatrixXd damped = normal.information;
     damped.diagonal() *= 1.0 + damping;
     if (take(-damped.ldlt().solve(normal.gradient))) return;

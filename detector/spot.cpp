@@ -88,19 +88,19 @@ double share_below_chord(double x) {
   return 0.5 + (x * std::sqrt(1.0 - x * x) + std::asin(x)) / std::numbers::pi;
 }
 
-SpotEcho echo_of(std::span<const VisibleFace> faces, double elevation_rad, double spread_rad, const Backdrop& backdrop,
+SpotEcho echo_of(std::span<const VisibleFace> faces, const Elevation& at, double spread_rad, const Backdrop& backdrop,
                  double pulse_separation_m) {
   constexpr double kLeastShare = 0.002;
-  const double low = elevation_rad - spread_rad;
-  const double high = elevation_rad + spread_rad;
+  const double low = at.rad - spread_rad;
+  const double high = at.rad + spread_rad;
   auto face =
-      std::lower_bound(faces.begin(), faces.end(), low, [](const VisibleFace& f, double at) { return f.end_rad < at; });
-  const auto range_on = [&](const VisibleFace& f, double at) {
-    return f.kind == VisibleFace::Kind::Beyond ? backdrop.range_m(at) : f.distance_m(at);
+      std::lower_bound(faces.begin(), faces.end(), low, [](const VisibleFace& f, double below) { return f.end_rad < below; });
+  const auto range_on = [&](const VisibleFace& f, const Elevation& sight) {
+    return f.kind == VisibleFace::Kind::Beyond ? backdrop.range_m(sight.rad) : f.distance_m(sight);
   };
   if (face == faces.end() || face->kind == VisibleFace::Kind::Unknown) return {};
   if (face->end_rad >= high) {
-    const double range = range_on(*face, elevation_rad);
+    const double range = range_on(*face, at);
     return {.is_known = std::isfinite(range), .is_past = face->kind == VisibleFace::Kind::Beyond, .range_m = range};
   }
   Parts parts;
@@ -108,11 +108,11 @@ SpotEcho echo_of(std::span<const VisibleFace> faces, double elevation_rad, doubl
   double before = 0.0;
   for (; face != faces.end() && face->begin_rad < high; ++face) {
     const double end = std::min(face->end_rad, high);
-    const double below = spread_rad > 0.0 ? share_below_chord((end - elevation_rad) / spread_rad) : 1.0;
+    const double below = spread_rad > 0.0 ? share_below_chord((end - at.rad) / spread_rad) : 1.0;
     const double share = below - before;
     before = below;
     if (share < kLeastShare) continue;
-    const double range = range_on(*face, 0.5 * (std::max(face->begin_rad, low) + end));
+    const double range = range_on(*face, at.near_by(0.5 * (std::max(face->begin_rad, low) + end)));
     const bool is_known = face->kind != VisibleFace::Kind::Unknown && range > 0.0 && std::isfinite(range);
     if (!is_known || parts.count == kMostParts) return {};
     parts.list[parts.count++] = {range, share};

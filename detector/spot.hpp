@@ -40,12 +40,12 @@ struct SpotEcho {
 /// Share of an evenly lit unit disk that lies below a chord at x: 0 for x <= -1, 1 for x >= 1.
 double share_below_chord(double x);
 
-/// The echo of a beam at `elevation_rad` whose spot spreads over `spread_rad` to both sides.
+/// The echo of a beam at an elevation whose spot spreads over `spread_rad` to both sides.
 ///
 /// The spot is an evenly lit disk: its share between two elevations follows from the area between two chords.
 /// @param faces     visible_faces()
 /// Cost: O(log n) in the faces.
-SpotEcho echo_of(std::span<const VisibleFace> faces, double elevation_rad, double spread_rad, const Backdrop& backdrop,
+SpotEcho echo_of(std::span<const VisibleFace> faces, const Elevation& at, double spread_rad, const Backdrop& backdrop,
                  double pulse_separation_m);
 
 }  // namespace stairway::detect

@@ -116,8 +116,22 @@ std::vector<double> corner_elevations(const std::vector<Segment>& segments) {
 
 }  // namespace
 
-double VisibleFace::distance_m(double elevation_rad) const {
-  return place_m / (kind == Kind::Upright ? std::cos(elevation_rad) : std::sin(elevation_rad));
+Elevation Elevation::near_by(double at_rad) const {
+  constexpr double kNear_rad = 0.1;
+  const double turn = at_rad - rad;
+  if (!(std::abs(turn) < kNear_rad)) return {at_rad};
+  const double squared = turn * turn;
+  const double turn_cosine = 1.0 - squared * (1.0 / 2.0 - squared / 24.0);
+  const double turn_sine = turn * (1.0 - squared * (1.0 / 6.0 - squared / 120.0));
+  Elevation result = *this;
+  result.rad = at_rad;
+  result.cosine = cosine * turn_cosine - sine * turn_sine;
+  result.sine = sine * turn_cosine + cosine * turn_sine;
+  return result;
+}
+
+double VisibleFace::distance_m(const Elevation& at) const {
+  return place_m / (kind == Kind::Upright ? at.cosine : at.sine);
 }
 
 std::vector<VisibleFace> visible_faces(const StairProfileShape& shape, const Eigen::Vector2d& sensor) {

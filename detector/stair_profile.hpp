@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "detector/stair_model.hpp"
@@ -20,6 +21,19 @@ struct StairProfileShape {
   bool goes_on_below = false;  ///< what one sees past the lowest nosing are further steps: unknown, not past the flight
 };
 
+/// An elevation within the plane of a profile with its cosine and sine, which are costly.
+struct Elevation {
+  double rad = 0.0;
+  double cosine = 1.0;
+  double sine = 0.0;
+
+  Elevation(double at_rad) : rad(at_rad), cosine(std::cos(at_rad)), sine(std::sin(at_rad)) {}  // NOLINT: it is one
+  /// Towards (u, z), `length_m` away.
+  Elevation(double u, double z, double length_m) : rad(std::atan2(z, u)), cosine(u / length_m), sine(z / length_m) {}
+  /// Another one, up to a tenth of a rad from this one to the last digits.
+  Elevation near_by(double at_rad) const;
+};
+
 /// A part of the profile that the sensor sees between two elevations.
 struct VisibleFace {
   enum class Kind {
@@ -35,7 +49,7 @@ struct VisibleFace {
   int step = 0;          ///< index of the nosing it belongs to; for Beyond that of the edge below it
 
   /// Distance from the sensor within the plane, at an elevation on it. @pre Upright or Level.
-  double distance_m(double elevation_rad) const;
+  double distance_m(const Elevation& at) const;
 };
 
 /// The faces that a sensor at `sensor` (u, z) sees, by rising elevation from -pi to pi without gaps.
