@@ -23,6 +23,14 @@ TEST(SimRandomScenes, can_all_be_built) {
     EXPECT_EQ(random_spiral_scene(seed).problem(), "");
     EXPECT_EQ(random_descending_scene(seed).problem(), "");
     EXPECT_EQ(random_mid_landing_scene(seed).problem(), "");
+    EXPECT_EQ(random_inverted_descending_scene(seed).problem(), "");
+  }
+}
+
+TEST(SimRandomScenes, keep_the_upper_edge_away_from_the_robot_however_askew_it_is) {
+  for (const std::uint64_t seed : {50021, 50283}) {
+    SCOPED_TRACE(seed);
+    EXPECT_EQ(random_inverted_descending_scene(seed).problem(), "");
   }
 }
 

@@ -84,7 +84,9 @@ SceneSpec descending_scene(std::string name, bool is_inverted, Random& random) {
   SceneSpec spec;
   spec.name = std::move(name);
   StairSpec flight = is_inverted ? usual_flight(random) : shallow_flight(random);
-  place_edge(flight, random_yaw(random), kNearest_m, random);
+  do {
+    place_edge(flight, random_yaw(random), kNearest_m, random);
+  } while (overlap(build_flight(flight).footprint, robot_outline()));
   spec.stairs = {flight};
   surround(spec, random);
   spec.mount = is_inverted ? inverted_mount() : scan::MountOptions{};

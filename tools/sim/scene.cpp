@@ -17,16 +17,6 @@ constexpr double kRobotRadius_m = 0.2;
 
 Outline outline_of(const Room& room) { return rectangle_between(room.low, room.high); }
 
-Outline robot_outline() {
-  constexpr int kCorners = 24;
-  Outline outline;
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kCorners;
-    outline.emplace_back(kRobotRadius_m * std::cos(angle), kRobotRadius_m * std::sin(angle));
-  }
-  return outline;
-}
-
 bool is_inside(const Room& room, const Outline& outline) {
   for (const auto& p : outline) {
     if ((p.array() < room.low.array() - 1e-9).any() || (p.array() > room.high.array() + 1e-9).any()) return false;
@@ -51,6 +41,16 @@ void add_shaft(Mesh& mesh, const Outline& outline, double z_low_m, double z_high
 }
 
 }  // namespace
+
+Outline robot_outline() {
+  constexpr int kCorners = 24;
+  Outline outline;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners;
+    outline.emplace_back(kRobotRadius_m * std::cos(angle), kRobotRadius_m * std::sin(angle));
+  }
+  return outline;
+}
 
 std::string SceneSpec::problem() const {
   if (auto text = problem_of(room); !text.empty()) return text;

@@ -22,6 +22,9 @@ struct Room {
   double height_m = 2.8;
 };
 
+/// The place of the robot on the floor, around x = y = 0, which nothing may cover.
+Outline robot_outline();
+
 /// What a scene consists of, before it is built.
 struct SceneSpec {
   std::string name;
