@@ -46,10 +46,13 @@ class JointFitter {
   }
 
   std::optional<JointFit> run() {
-    for (int pass = 0; pass < options_.passes; ++pass) {
+    bool is_last = false;
+    for (int pass = 0; !is_last; ++pass) {
+      const JointFit before = fit_;
       if (!measure(pass == 0 ? 0 : fit_.last - fit_.first + 1)) return std::nullopt;
       fit_steps();
-      if (pass + 1 == options_.passes) fit_.offsets = offsets();
+      is_last = pass + 1 == options_.passes || (pass > 0 && has_settled_since(before));
+      if (is_last) fit_.offsets = offsets();
       if (!fit_sides()) return std::nullopt;
     }
     refine_by_beams();
@@ -57,6 +60,17 @@ class JointFitter {
   }
 
  private:
+  bool beams_follow() const { return !fit_.model.is_spiral() && corridor_.sensor(); }
+
+  // Beams only need a start that tells which of them meet which edge.
+  bool has_settled_since(const JointFit& before) const {
+    const double far_m = beams_follow() ? 0.5e-3 : 0.02e-3;
+    const auto has_moved = [&](int number) {
+      return (fit_.model.step(number).nosing - before.model.step(number).nosing).norm() > far_m;
+    };
+    return before.first == fit_.first && before.last == fit_.last && !has_moved(fit_.first) && !has_moved(fit_.last);
+  }
+
   std::optional<StepMeasurement> seen(int number) const {
     if (!may_be_step(number)) return std::nullopt;
     StepMeasurement step = measure_step(corridor_, fit_.model, fit_.sides, number, options_.measurement);
@@ -156,7 +170,7 @@ class JointFitter {
   }
 
   void refine_by_beams() {
-    if (fit_.model.is_spiral() || !corridor_.sensor()) return;
+    if (!beams_follow()) return;
     const BeamFitStart start{.model = fit_.model,
                              .sides = fit_.sides,
                              .first = fit_.first,

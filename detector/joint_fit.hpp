@@ -17,7 +17,7 @@ namespace stairway::detect {
 struct JointFitOptions {
   StepMeasurementOptions measurement;
   BeamFitOptions beams;
-  int passes = 6;            ///< of measuring all steps and fitting the model to them
+  int passes = 6;            ///< at most, of measuring all steps and fitting the model to them
   int max_unseen_steps = 2;  ///< the stairway ends after this many steps in a row of which no point is found
 
   double max_sigma_m = 0.005;  ///< of step height and depth; what is less certain than this is no stairway to climb [m]
