@@ -32,7 +32,10 @@ struct CellMoments {
 };
 
 /// The moments of every cell, in the order of the cells. Cost: O(N).
-std::vector<CellMoments> moments_of_cells(std::span<const Eigen::Vector3f> points, const CellGroups& groups);
+std::vector<CellMoments> moments_of_cells(std::span<const Eigen::Vector3f> points, const CellGroups& groups,
+                                          int threads = 1);
+/// Likewise of groups of cells.
+std::vector<CellMoments> merged_moments(std::span<const CellMoments> cells, const CellGroups& groups);
 
 /// Moments of several cells about a place among them; single precision is enough for neighbourhoods of a metre.
 class NeighbourhoodMoments {
@@ -54,6 +57,8 @@ class NeighbourhoodMoments {
 
   /// @pre count() > 0
   PrincipalAxes axes() const;
+  /// All of them as one cell. @pre count() > 0
+  CellMoments as_cell() const;
 
  private:
   Eigen::Array4f origin_;

@@ -10,6 +10,7 @@
 #include "detector/cell_groups.hpp"
 #include "detector/cell_moments.hpp"
 #include "detector/ghost_filter.hpp"
+#include "detector/parallel_ranges.hpp"
 #include "detector/voxel_grid.hpp"
 
 namespace stairway::detect {
@@ -20,16 +21,18 @@ constexpr double kFlat = 4.0;
 constexpr double kFilled = 0.6;       // of the variance of a square as wide as the cell
 constexpr double kStray = 2.5;        // thicknesses
 constexpr double kMostStrays = 0.02;  // of the points
+constexpr std::size_t kFewestCells = 500;  // for a thread of their own
 
 enum class CellUse : std::uint8_t { Patch, Halo, Loose };
 
 class ElementBuilder {
  public:
-  ElementBuilder(const scan::PointCloud& cloud, const PatchOptions& options)
+  ElementBuilder(const scan::PointCloud& cloud, const PatchOptions& options, int threads)
       : cloud_(cloud),
         options_(options),
+        threads_(threads),
         cells_(group_by_cell(cloud.points, 0.5 * options.edge_m)),
-        moments_(moments_of_cells(cloud.points, cells_)),
+        moments_(moments_of_cells(cloud.points, cells_, threads)),
         use_(cells_.size(), CellUse::Loose) {
     elements_.cloud.sensor_origin = cloud.sensor_origin;
   }
@@ -40,7 +43,7 @@ class ElementBuilder {
   }
 
   SurfaceElements with_normals(const NormalOptions& options) {
-    const SurfaceNormals surface = estimate_normals(loose_, loose_count_, options);
+    const SurfaceNormals surface = estimate_normals(loose_, loose_count_, options, threads_);
     SurfaceNormals& all = elements_.surface;
     all.normals.insert(all.normals.end(), surface.normals.begin(), surface.normals.end());
     all.variations.insert(all.variations.end(), surface.variations.begin(), surface.variations.end());
@@ -91,7 +94,9 @@ class ElementBuilder {
     for (const CellMoments& cell : moments_) places.push_back(cell.place());
     const CellGroups large = group_by_cell(places, options_.edge_m);
     std::vector<std::optional<PrincipalAxes>> planes(large.size());
-    for (std::size_t i = 0; i < large.size(); ++i) planes[i] = plane_of(large[i]);
+    for_ranges(large.size(), threads_, kFewestCells, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) planes[i] = plane_of(large[i]);
+    });
     CellRows rows(large, 1);
     for (std::size_t i = 0; i < large.size(); ++i)
       if (planes[i] && goes_on_around(i, planes, rows)) add_patch(*planes[i], large[i], most_voxels);
@@ -181,6 +186,7 @@ class ElementBuilder {
 
   const scan::PointCloud& cloud_;
   const PatchOptions& options_;
+  const int threads_;
   const CellGroups cells_;
   const std::vector<CellMoments> moments_;
   std::vector<CellUse> use_;
@@ -209,9 +215,9 @@ void SurfaceElements::drop_ghosts(double min_grazing_rad) {
 }
 
 SurfaceElements surface_elements(const scan::PointCloud& cloud, double voxel_m, const NormalOptions& normals,
-                                 const PatchOptions& options, const StageListener& on_stage) {
+                                 const PatchOptions& options, const StageListener& on_stage, int threads) {
   begin_stage(on_stage, "voxel_grid");
-  ElementBuilder builder(cloud, options);
+  ElementBuilder builder(cloud, options, threads);
   builder.find_patches(voxel_m);
   begin_stage(on_stage, "normals");
   return builder.with_normals(normals);

@@ -48,9 +48,9 @@ struct SurfaceElements {
 /// @param cloud    not thinned; points that are not finite belong to no element.
 /// @param voxel_m  points that are in no patch are thinned to one in every cell of this edge [m], > 0.
 /// @param on_stage  hears "voxel_grid" and "normals".
-/// Independent of the order of the points but for the rounding of sums. Cost: O(N).
+/// Independent of the number of threads, and of the order of the points but for the rounding of sums. Cost: O(N).
 SurfaceElements surface_elements(const scan::PointCloud& cloud, double voxel_m, const NormalOptions& normals,
-                                 const PatchOptions& options, const StageListener& on_stage = {});
+                                 const PatchOptions& options, const StageListener& on_stage = {}, int threads = 1);
 
 /// The regions that grow over surface elements, each with all the points that its elements stand for.
 /// @param elements  of this cloud.

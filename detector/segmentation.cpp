@@ -28,13 +28,13 @@ int SegmentationOptions::min_points() const {
 }
 
 std::vector<PlaneRegion> segment(const scan::PointCloud& thinned, const SegmentationOptions& options,
-                                 const StageListener& on_stage) {
+                                 const StageListener& on_stage, int threads) {
   if (options.method == SegmentationMethod::SplitAndMerge) {
     begin_stage(on_stage, "segmentation");
     return split_and_merge(thinned, options.split_and_merge);
   }
   begin_stage(on_stage, "normals");
-  SurfaceNormals surface = estimate_normals(thinned, options.normals);
+  SurfaceNormals surface = estimate_normals(thinned, thinned.points.size(), options.normals, threads);
   begin_stage(on_stage, "segmentation");
   scan::PointCloud clean = thinned;
   const std::vector<std::uint32_t> kept = drop_ghosts(clean, surface, options.min_grazing_rad);
@@ -47,8 +47,9 @@ std::vector<PlaneRegion> segment(const scan::PointCloud& thinned, const Segmenta
 }
 
 std::vector<PlaneRegion> segment_by_patches(const scan::PointCloud& cloud, double voxel_m,
-                                            const SegmentationOptions& options, const StageListener& on_stage) {
-  SurfaceElements elements = surface_elements(cloud, voxel_m, options.normals, options.patches, on_stage);
+                                            const SegmentationOptions& options, const StageListener& on_stage,
+                                            int threads) {
+  SurfaceElements elements = surface_elements(cloud, voxel_m, options.normals, options.patches, on_stage, threads);
   begin_stage(on_stage, "segmentation");
   elements.drop_ghosts(options.min_grazing_rad);
   return grow_regions(cloud, elements, options.region_growing);

@@ -49,9 +49,9 @@ struct SegmentationOptions {
 /// @param thinned   finite points of any frame, about one per cm^3 [m].
 /// @param on_stage  hears "normals", where the method needs them, and "segmentation".
 /// @return regions with the indices of their points, every point in at most one; their normals face the sensor where
-/// its place is known.
+/// its place is known; whatever the number of threads, the same.
 std::vector<PlaneRegion> segment(const scan::PointCloud& thinned, const SegmentationOptions& options = {},
-                                 const StageListener& on_stage = {});
+                                 const StageListener& on_stage = {}, int threads = 1);
 
 /// Grows regions over patches: as accurate as region growing, and faster by the share of the points that lie in
 /// patches.
@@ -59,6 +59,7 @@ std::vector<PlaneRegion> segment(const scan::PointCloud& thinned, const Segmenta
 /// @param voxel_m  to which the points in no patch are thinned [m], > 0.
 /// @return as segment(), with all points of the cloud that belong to a region.
 std::vector<PlaneRegion> segment_by_patches(const scan::PointCloud& cloud, double voxel_m,
-                                            const SegmentationOptions& options, const StageListener& on_stage = {});
+                                            const SegmentationOptions& options, const StageListener& on_stage = {},
+                                            int threads = 1);
 
 }  // namespace stairway::detect

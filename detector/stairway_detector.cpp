@@ -135,6 +135,7 @@ Detection detect_in_level_cloud(const scan::PointCloud& cloud, const scan::Point
 
 std::string DetectorOptions::problem() const {
   if (!(voxel_m > 0.0)) return "voxel_m must be greater than 0";
+  if (threads < 1 || threads > 64) return "threads must lie between 1 and 64";
   for (const std::string& problem :
        {segmentation.problem(), level.problem(), plane_finder.problem(), fragment_merging.problem(),
         competition.problem(), joint_fit.problem(), railing.problem(), localisation.problem()})
@@ -151,8 +152,9 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
     thinned = voxel_centroids(cloud, options.voxel_m);
   }
   std::vector<PlaneRegion> regions = by_patches
-                                         ? segment_by_patches(cloud, options.voxel_m, options.segmentation, on_stage)
-                                         : segment(thinned, options.segmentation, on_stage);
+                                         ? segment_by_patches(cloud, options.voxel_m, options.segmentation, on_stage,
+                                                              options.threads)
+                                         : segment(thinned, options.segmentation, on_stage, options.threads);
   begin_stage(on_stage, "plane_finder");
   const std::optional<SceneLevel> level = options.level.enabled ? level_by_scene(regions, options.level) : std::nullopt;
   if (!level)

@@ -20,6 +20,7 @@ namespace stairway::detect {
 
 struct DetectorOptions {
   double voxel_m = 0.01;  ///< edge of the thinning cells [m], > 0; the paper's 1 cm
+  int threads = 2;        ///< that work at once, 1..64; the answer does not depend on it
   SegmentationOptions segmentation;
   SceneLevelOptions level;
   PlaneFinderOptions plane_finder;
@@ -37,7 +38,7 @@ struct DetectorOptions {
 ///
 /// @param cloud  points in the `base` frame, z up, floor at z = 0 [m]; points that are not finite are ignored.
 /// @return stairways by falling evidence; when there is none, `rejected` says how far the best candidate came.
-/// Never throws on any cloud. Single-threaded; deterministic. Cost: O(N log N) in the number of points.
+/// Never throws on any cloud. Deterministic, whatever `options.threads`. Cost: O(N log N) in the number of points.
 Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions& options = {},
                            const StageListener& on_stage = {});
 
