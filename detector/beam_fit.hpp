@@ -14,8 +14,8 @@ namespace stairway::detect {
 
 struct BeamFitOptions {
   double pulse_separation_m = 0.7;  ///< surfaces nearer to each other in range give one echo between them [m]
-  int edge_beams = 6000;            ///< whose spot lies near an edge; of more, about so many are drawn
-  int plane_beams = 3000;           ///< and whose spot lies on one face, likewise
+  int edge_beams = 3000;            ///< whose spot lies near an edge; of more, about so many are drawn
+  int plane_beams = 1500;           ///< and whose spot lies on one face, likewise
   double max_misfit = 2.0;          ///< root of chi^2 per beam, above which the beams do not see what the model says
   double min_explained = 0.2;       ///< share of the beams that must have measured what the model says
 
