@@ -12,7 +12,9 @@ static_assert(static_cast<int>(detect::SegmentationMethod::VoxelSac) == 2);
 }  // namespace
 
 void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& detector) {
-  Section(table, "detector").real("voxel", detector.voxel_m, kMillimetre, {1, 200}, "edge of the thinning cells");
+  Section(table, "detector")
+      .real("voxel", detector.voxel_m, kMillimetre, {1, 200}, "edge of the thinning cells")
+      .whole("threads", detector.threads, 1, 64, "that look for planes at once; the answer is the same for any number");
 
   detect::SegmentationOptions& segmentation = detector.segmentation;
   Section(table, "detector.segmentation")
@@ -30,7 +32,7 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
   Section(table, "detector.normals")
       .real("radius", segmentation.normals.radius_m, kMillimetre, {5, 500}, "neighbours within it make a normal")
       .whole("min_neighbours", segmentation.normals.min_neighbours, 3, 1000,
-             "where the radius holds fewer points, the nearest this many are taken");
+             "where the radius holds fewer points, it is doubled, up to three times");
 
   Section(table, "detector.region_growing")
       .whole("num_neighbours", segmentation.region_growing.num_neighbours, 3, 200, "neighbours a region may grow over")

@@ -224,17 +224,21 @@ SurfaceElements surface_elements(const scan::PointCloud& cloud, double voxel_m, 
 }
 
 std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceElements& elements,
-                                      const RegionGrowingOptions& options) {
-  std::vector<PlaneRegion> regions;
-  for (const std::vector<std::uint32_t>& set :
-       grow_point_sets(elements.cloud, elements.surface, elements.weights, options)) {
+                                      const RegionGrowingOptions& options, int threads) {
+  constexpr std::size_t kFewestSets = 10;
+  const std::vector<std::vector<std::uint32_t>> sets =
+      grow_point_sets(elements.cloud, elements.surface, elements.weights, options);
+  const auto region_of = [&](const std::vector<std::uint32_t>& set) {
     std::vector<std::uint32_t> points;
     for (const std::uint32_t element : set)
       points.insert(points.end(), elements.members.begin() + elements.runs[element].first,
                     elements.members.begin() + elements.runs[element].last);
-    regions.push_back(
-        make_region(cloud.points, std::move(points), elements.surface.normals[set.front()].cast<double>()));
-  }
+    return make_region(cloud.points, std::move(points), elements.surface.normals[set.front()].cast<double>());
+  };
+  std::vector<PlaneRegion> regions(sets.size());
+  for_ranges(sets.size(), threads, kFewestSets, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) regions[i] = region_of(sets[i]);
+  });
   return regions;
 }
 

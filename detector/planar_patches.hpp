@@ -55,6 +55,6 @@ SurfaceElements surface_elements(const scan::PointCloud& cloud, double voxel_m, 
 /// The regions that grow over surface elements, each with all the points that its elements stand for.
 /// @param elements  of this cloud.
 std::vector<PlaneRegion> grow_regions(const scan::PointCloud& cloud, const SurfaceElements& elements,
-                                      const RegionGrowingOptions& options);
+                                      const RegionGrowingOptions& options, int threads = 1);
 
 }  // namespace stairway::detect

@@ -52,7 +52,7 @@ std::vector<PlaneRegion> segment_by_patches(const scan::PointCloud& cloud, doubl
   SurfaceElements elements = surface_elements(cloud, voxel_m, options.normals, options.patches, on_stage, threads);
   begin_stage(on_stage, "segmentation");
   elements.drop_ghosts(options.min_grazing_rad);
-  return grow_regions(cloud, elements, options.region_growing);
+  return grow_regions(cloud, elements, options.region_growing, threads);
 }
 
 }  // namespace stairway::detect

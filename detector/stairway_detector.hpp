@@ -20,7 +20,7 @@ namespace stairway::detect {
 
 struct DetectorOptions {
   double voxel_m = 0.01;  ///< edge of the thinning cells [m], > 0; the paper's 1 cm
-  int threads = 2;        ///< that work at once, 1..64; the answer does not depend on it
+  int threads = 2;        ///< that look for planes at once, 1..64; the answer is the same for any number
   SegmentationOptions segmentation;
   SceneLevelOptions level;
   PlaneFinderOptions plane_finder;

@@ -56,6 +56,23 @@ TEST_F(DetectorProperties, gives_the_same_answer_twice) {
   }
 }
 
+TEST_F(DetectorProperties, gives_the_same_answer_on_any_number_of_threads) {
+  DetectorOptions options;
+  options.threads = 1;
+  const Detection alone = detect_stairways(room().cloud, options);
+  ASSERT_FALSE(alone.stairways.empty());
+  for (const int threads : {2, 3, 8}) {
+    SCOPED_TRACE(::testing::Message() << threads << " threads");
+    options.threads = threads;
+    const Detection together = detect_stairways(room().cloud, options);
+    ASSERT_EQ(together.stairways.size(), alone.stairways.size());
+    for (std::size_t i = 0; i < alone.stairways.size(); ++i) {
+      EXPECT_EQ(together.stairways[i].step_height, alone.stairways[i].step_height);
+      EXPECT_EQ(together.stairways[i].anchor, alone.stairways[i].anchor);
+    }
+  }
+}
+
 TEST_F(DetectorProperties, does_not_depend_on_the_order_of_points) {
   scan::PointCloud shuffled = room().cloud;
   std::shuffle(shuffled.points.begin(), shuffled.points.end(), std::mt19937(9));

@@ -27,6 +27,18 @@ const VisibleFace& at(const std::vector<VisibleFace>& faces, double elevation_ra
 
 double towards(const Eigen::Vector2d& sensor, double u, double z) { return std::atan2(z - sensor.y(), u - sensor.x()); }
 
+TEST(Elevation, near_another_has_its_own_sine_and_cosine) {
+  for (const double at : {-3.0, -1.2, 0.0, 0.4, 1.5707, 3.1}) {
+    for (const double turn : {-2.0, -0.11, -0.09, -1e-3, 0.0, 0.03, 0.099, 0.5}) {
+      SCOPED_TRACE(::testing::Message() << at << " turned by " << turn);
+      const Elevation near = Elevation(at).near_by(at + turn);
+      EXPECT_EQ(near.rad, at + turn);
+      EXPECT_NEAR(near.cosine, std::cos(at + turn), 3e-9);
+      EXPECT_NEAR(near.sine, std::sin(at + turn), 3e-9);
+    }
+  }
+}
+
 TEST(StairProfile, fills_all_elevations_without_gaps) {
   for (const bool open : {false, true}) {
     for (const Eigen::Vector2d& sensor : {Eigen::Vector2d(-2.0, 0.3), Eigen::Vector2d(-1.0, -0.1),
