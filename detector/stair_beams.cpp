@@ -22,8 +22,11 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// A beam and the faces it may have met.
 struct Candidate {
   StairBeam beam;
-  double elevation_rad = 0.0;
+  Elevation elevation;
+  double plane_m = 0.0;  // within the plane of the profile
   double spread_rad = 0.0;
+
+  double aside_rad() const { return std::atan2(beam.v, plane_m); }
   std::size_t first_face = 0;
   std::size_t last_face = 0;
   std::uint64_t key = 0;  // of its own, from its place alone
@@ -44,8 +47,12 @@ std::uint64_t scrambled(const Eigen::Vector3d& place) {
 /// What is seen past the flight, by the gap one looks through and the direction aside.
 class Background {
  public:
+  // @pre the beam meets one face. It is of use only where it passes near an edge.
   void add(const Candidate& c, std::span<const VisibleFace> faces) {
-    if (const auto key = key_of(c, faces)) seen_[*key].push_back({c.elevation_rad, std::hypot(c.beam.u, c.beam.z)});
+    const VisibleFace& face = faces[c.first_face];
+    const double reach = (kReachSpots + kUnsureSpots) * c.spread_rad;
+    if (c.elevation.rad > face.begin_rad + reach && c.elevation.rad < face.end_rad - reach) return;
+    if (const auto key = key_of(c, faces)) seen_[*key].push_back({c.elevation.rad, c.plane_m});
   }
 
   // That of the beams whose elevation is nearest.
@@ -57,12 +64,12 @@ class Background {
     const auto place = key ? seen_.find(*key) : seen_.end();
     if (place == seen_.end() || place->second.size() < kFewest) return unknown;
     std::vector<Seen> near = place->second;
-    const auto off = [&](const Seen& s) { return std::abs(s.elevation_rad - c.elevation_rad); };
+    const auto off = [&](const Seen& s) { return std::abs(s.elevation_rad - c.elevation.rad); };
     const auto end = near.begin() + static_cast<std::ptrdiff_t>(std::min(kNearest, near.size()));
     std::partial_sort(near.begin(), end, near.end(), [&](const Seen& a, const Seen& b) { return off(a) < off(b); });
     near.erase(end, near.end());
     std::erase_if(near, [&](const Seen& s) { return off(s) > kReachSpots * c.spread_rad; });
-    return near.size() < kFewest ? unknown : plane_through(near, c.elevation_rad);
+    return near.size() < kFewest ? unknown : plane_through(near, c.elevation.rad);
   }
 
  private:
@@ -96,8 +103,7 @@ class Background {
   static std::optional<Key> key_of(const Candidate& c, std::span<const VisibleFace> faces) {
     for (std::size_t i = c.first_face; i <= c.last_face; ++i) {
       if (faces[i].kind != VisibleFace::Kind::Beyond) continue;
-      const double aside = std::atan2(c.beam.v, std::hypot(c.beam.u, c.beam.z));
-      return Key{i, static_cast<int>(std::floor(aside / kAside_rad))};
+      return Key{i, static_cast<int>(std::floor(c.aside_rad() / kAside_rad))};
     }
     return std::nullopt;
   }
@@ -105,36 +111,80 @@ class Background {
   std::map<Key, std::vector<Seen>> seen_;
 };
 
+/// About so many of all candidates, those with the smallest keys; few more are ever kept.
+class Draw {
+ public:
+  explicit Draw(int wanted) : wanted_(static_cast<double>(wanted)) {}
+
+  void add(const Candidate& candidate) {
+    constexpr double kMost = 4.0;  // times the wanted, so that halves of them are enough
+    ++seen_;
+    if (candidate.key > highest_key_) return;
+    kept_.push_back(candidate);
+    if (static_cast<double>(kept_.size()) > kMost * wanted_) drop_above(highest_key_ / 2);
+  }
+
+  const std::vector<Candidate>& drawn() {
+    constexpr double kKeys = 0x1p64;
+    const double share = wanted_ / static_cast<double>(std::max<std::size_t>(1, seen_));
+    if (share < 1.0) drop_above(static_cast<std::uint64_t>(share * kKeys));
+    return kept_;
+  }
+
+ private:
+  void drop_above(std::uint64_t key) {
+    highest_key_ = std::min(highest_key_, key);
+    std::erase_if(kept_, [&](const Candidate& c) { return c.key > highest_key_; });
+  }
+
+  double wanted_;
+  std::uint64_t highest_key_ = std::numeric_limits<std::uint64_t>::max();
+  std::size_t seen_ = 0;
+  std::vector<Candidate> kept_;
+};
+
 class BeamSelection {
  public:
   BeamSelection(const StepPoint& sensor, std::span<const VisibleFace> faces, const Interval& sides,
-                double spot_radius_rad)
-      : sensor_(sensor), faces_(faces), sides_(sides), spot_radius_rad_(spot_radius_rad) {}
+                double spot_radius_rad, int most_on_edges, int most_on_planes)
+      : sensor_(sensor),
+        faces_(faces),
+        sides_(sides),
+        spot_radius_rad_(spot_radius_rad),
+        on_edges_(most_on_edges),
+        on_planes_(most_on_planes) {}
 
   /// @param place  of the same point, in a frame that does not change while a flight is fitted.
   void look_at(const StepPoint& p, const Eigen::Vector3d& place) {
-    Candidate c{.beam = {.u = p.u - sensor_.u, .v = p.v - sensor_.v, .z = p.z - sensor_.z}};
-    const double plane_m = std::hypot(c.beam.u, c.beam.z);
-    const double range_m = std::hypot(plane_m, c.beam.v);
     constexpr double kAlongNosing = 0.2;  // beams that run along the nosings tell little
-    if (plane_m < kAlongNosing * range_m) return;
-    c.elevation_rad = std::atan2(c.beam.z, c.beam.u);
-    c.spread_rad = spot_radius_rad_ * range_m / plane_m;
+    const StairBeam beam{.u = p.u - sensor_.u, .v = p.v - sensor_.v, .z = p.z - sensor_.z};
+    const double plane_m = std::sqrt(beam.u * beam.u + beam.z * beam.z);
+    const double range_m = std::sqrt(plane_m * plane_m + beam.v * beam.v);
+    if (!(plane_m > kAlongNosing * range_m)) return;
+    Candidate c{.beam = beam,
+                .elevation = {beam.u, beam.z, plane_m},
+                .plane_m = plane_m,
+                .spread_rad = spot_radius_rad_ * range_m / plane_m};
     find_faces(c);
     const bool is_single = c.first_face == c.last_face;
     const VisibleFace::Kind kind = faces_[c.first_face].kind;
     if (is_single && kind == VisibleFace::Kind::Unknown) return;
     if (is_single && kind == VisibleFace::Kind::Beyond) return background_.add(c, faces_);
-    if (is_in_the_way(c, plane_m)) obstacles_.insert(cell_of(c));
-    if (!passes_between_sides(c, plane_m)) return;
+    if (is_in_the_way(c)) obstacles_.insert(cell_of(c));
+    if (!passes_between_sides(c)) return;
     c.key = scrambled(place);
-    (is_single ? on_planes_ : on_edges_).push_back(c);
+    (is_single ? on_planes_ : on_edges_).add(c);
   }
 
-  std::vector<StairBeam> beams(int most_on_edges, int most_on_planes) {
+  std::vector<StairBeam> beams() {
     std::vector<StairBeam> beams;
-    take(on_edges_, most_on_edges, beams);
-    take(on_planes_, most_on_planes, beams);
+    for (Draw* const draw : {&on_edges_, &on_planes_}) {
+      for (const Candidate& c : draw->drawn()) {
+        if (is_beside_obstacle(c)) continue;
+        beams.push_back(c.beam);
+        beams.back().backdrop = background_.at(c, faces_);
+      }
+    }
     return beams;
   }
 
@@ -142,11 +192,11 @@ class BeamSelection {
   void find_faces(Candidate& c) const {
     const double reach = kUnsureSpots * c.spread_rad;
     const auto first =
-        std::lower_bound(faces_.begin(), faces_.end(), c.elevation_rad - reach,
+        std::lower_bound(faces_.begin(), faces_.end(), c.elevation.rad - reach,
                          [](const VisibleFace& face, double elevation) { return face.end_rad < elevation; });
     c.first_face = std::min(static_cast<std::size_t>(first - faces_.begin()), faces_.size() - 1);
     c.last_face = c.first_face;
-    while (c.last_face + 1 < faces_.size() && faces_[c.last_face + 1].begin_rad < c.elevation_rad + reach)
+    while (c.last_face + 1 < faces_.size() && faces_[c.last_face + 1].begin_rad < c.elevation.rad + reach)
       ++c.last_face;
     c.beam.first_step = std::numeric_limits<int>::max();
     c.beam.last_step = std::numeric_limits<int>::min();
@@ -156,13 +206,17 @@ class BeamSelection {
     }
   }
 
-  bool passes_between_sides(const Candidate& c, double plane_m) const {
+  static double distance_on(const VisibleFace& face, const Candidate& c) {
+    return face.distance_m(c.elevation.near_by(std::clamp(c.elevation.rad, face.begin_rad, face.end_rad)));
+  }
+
+  bool passes_between_sides(const Candidate& c) const {
     constexpr double kClear_m = 0.02;
     for (std::size_t i = c.first_face; i <= c.last_face; ++i) {
       const VisibleFace& face = faces_[i];
       if (face.kind == VisibleFace::Kind::Beyond || face.kind == VisibleFace::Kind::Unknown) continue;
-      const double distance = face.distance_m(std::clamp(c.elevation_rad, face.begin_rad, face.end_rad));
-      const double v = sensor_.v + c.beam.v * distance / plane_m;
+      const double distance = distance_on(face, c);
+      const double v = sensor_.v + c.beam.v * distance / c.plane_m;
       const double margin = kClear_m + spot_radius_rad_ * distance;
       if (v < sides_.low + margin || v > sides_.high - margin) return false;
     }
@@ -170,13 +224,12 @@ class BeamSelection {
   }
 
   // Shorter than anything there.
-  bool is_in_the_way(const Candidate& c, double plane_m) const {
+  bool is_in_the_way(const Candidate& c) const {
     constexpr double kBefore_m = 0.06;
     for (std::size_t i = c.first_face; i <= c.last_face; ++i) {
       const VisibleFace& face = faces_[i];
       if (face.kind == VisibleFace::Kind::Beyond || face.kind == VisibleFace::Kind::Unknown) continue;
-      if (plane_m > face.distance_m(std::clamp(c.elevation_rad, face.begin_rad, face.end_rad)) - kBefore_m)
-        return false;
+      if (c.plane_m > distance_on(face, c) - kBefore_m) return false;
     }
     return true;
   }
@@ -184,9 +237,8 @@ class BeamSelection {
   using Cell = std::pair<int, int>;
   Cell cell_of(const Candidate& c) const {
     const double size_rad = std::max(2.0 * spot_radius_rad_, 5e-3);
-    const double aside_rad = std::atan2(c.beam.v, std::hypot(c.beam.u, c.beam.z));
-    return {static_cast<int>(std::floor(c.elevation_rad / size_rad)),
-            static_cast<int>(std::floor(aside_rad / size_rad))};
+    return {static_cast<int>(std::floor(c.elevation.rad / size_rad)),
+            static_cast<int>(std::floor(c.aside_rad() / size_rad))};
   }
   bool is_beside_obstacle(const Candidate& c) const {
     const Cell cell = cell_of(c);
@@ -196,25 +248,14 @@ class BeamSelection {
     return false;
   }
 
-  void take(std::vector<Candidate>& candidates, int most, std::vector<StairBeam>& beams) const {
-    std::erase_if(candidates, [&](const Candidate& c) { return is_beside_obstacle(c); });
-    constexpr double kKeys = 0x1p64;
-    const double share = static_cast<double>(most) / static_cast<double>(std::max<std::size_t>(1, candidates.size()));
-    for (Candidate& c : candidates) {
-      if (static_cast<double>(c.key) > share * kKeys) continue;
-      c.beam.backdrop = background_.at(c, faces_);
-      beams.push_back(c.beam);
-    }
-  }
-
   StepPoint sensor_;
   std::span<const VisibleFace> faces_;
   Interval sides_;
   double spot_radius_rad_;
   Background background_;
   std::set<Cell> obstacles_;
-  std::vector<Candidate> on_edges_;
-  std::vector<Candidate> on_planes_;
+  Draw on_edges_;
+  Draw on_planes_;
 };
 
 }  // namespace
@@ -223,9 +264,9 @@ std::vector<StairBeam> select_beams(const StairCorridor& corridor, const StepFra
                                     std::span<const VisibleFace> faces, const Interval& sides, double spot_radius_rad,
                                     int most_on_edges, int most_on_planes) {
   if (faces.empty()) return {};
-  BeamSelection selection(sensor, faces, sides, spot_radius_rad);
+  BeamSelection selection(sensor, faces, sides, spot_radius_rad, most_on_edges, most_on_planes);
   for (const Eigen::Vector3d& point : corridor.points()) selection.look_at(frame.to_step(point), point);
-  return selection.beams(most_on_edges, most_on_planes);
+  return selection.beams();
 }
 
 }  // namespace stairway::detect

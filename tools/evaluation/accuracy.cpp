@@ -199,16 +199,26 @@ Table sigma_table(const std::vector<Measured>& all) {
 Table step_table(const std::vector<Measured>& all) {
   Table table{
       .name = "accuracy-steps",
-      .title = "Height of every single step seen: mean absolute error",
-      .columns = {{"case", ""}, {"steps", "", 0}, {"step_height_error", "mm", 2}, {"step_height_target", "mm", 2}},
+      .title = "Height of every single step seen: mean absolute error; and flights that are called irregular",
+      .columns = {{"case", ""},
+                  {"steps", "", 0},
+                  {"step_height_error", "mm", 2},
+                  {"step_height_target", "mm", 2},
+                  {"called_irregular", "%", 1}},
       .rows = {}};
   for (const Measured& measured : all) {
     if (!measured.of->has_stairs()) continue;
     std::vector<double> errors;
-    for (const AccuracyRun& run : measured.runs)
+    std::size_t found = 0;
+    double irregular = 0.0;
+    for (const AccuracyRun& run : measured.runs) {
       for (const double error : run.step_height_errors_m) errors.push_back(kMillimetres * std::abs(error));
+      if (!run.found) continue;
+      ++found;
+      irregular += run.found->is_irregular ? 1.0 : 0.0;
+    }
     table.rows.push_back({std::string(measured.of->name), static_cast<double>(errors.size()), cell(mean(errors)),
-                          cell(measured.of->targets.step_height_mm)});
+                          cell(measured.of->targets.step_height_mm), cell(percent(irregular, found))});
   }
   return table;
 }
