@@ -143,12 +143,13 @@ namespace {
 
 // What the rule is about and what the reader can do.
 std::string advice(const std::string& rule) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kAdvice{{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kAdvice{{
       {"too-few-steps", ", too few: bring more of the flight into view"},
       {"slope-out-of-range", ", flatter or steeper than stairs: a ramp, a ladder, or a cloud that is not level"},
       {"step-size-out-of-range", " of a height or depth that stairs do not have: are lengths in metres?"},
       {"steps-missing", " with gaps between them: furniture, or a flight that something hides"},
       {"too-uncertain", ", too uncertain to climb: go nearer or bring more of them into view"},
+      {"beams-disagree", " that single beams do not end on: other things in a row, or a cloud that leans"},
       {"no-points-on-steps", " only: planes lie like those of a flight, but its steps show no points"},
   }};
   for (const auto& [name, text] : kAdvice)

@@ -181,6 +181,9 @@ class JointFitter {
                              .from_above = view_ == View::FromAbove};
     const std::optional<BeamFit> beams = fit_beams(corridor_, start, options_.beams);
     if (!beams) {
+      // Of few points too few beams are left to say anything, and boards are easily seen past.
+      constexpr std::size_t kEnough = 20000;
+      fit_.is_contradicted = has_risers() && corridor_.points().size() > kEnough;
       fit_.offsets.clear();  // what steps measured one by one is off by more than steps are
       return;
     }
@@ -281,6 +284,7 @@ std::string broken_rule(const JointFit& fit, const StepLimits& limits, const Con
   if (!limits.allow(nearest_to(limits, fit))) return "step-size-out-of-range";
   if (fit.seen_steps < options.min_seen_share * (fit.last - fit.first + 1)) return "steps-missing";
   if (std::max(fit.sigmas.height_m, fit.sigmas.depth_m) > options.max_sigma_m) return "too-uncertain";
+  if (fit.is_contradicted) return "beams-disagree";
   return {};
 }
 

@@ -38,6 +38,8 @@ struct JointFit {
   int first = 0;                     ///< number of the lowest step of which points were found
   int last = 0;                      ///< and of the highest
   bool on_landing = false;           ///< it begins on a floor of its own, which was seen below its lowest step
+  /// Risers and treads were measured, yet most single beams do not end on such a flight.
+  bool is_contradicted = false;
   int seen_steps = 0;                ///< how many of them have points
   std::vector<StepOffset> offsets;   ///< of the seen steps from the model
   int measurements = 0;              ///< fronts, treads and undersides measured on them
@@ -56,7 +58,8 @@ std::optional<JointFit> fit_jointly(const scan::PointCloud& cloud, const StairGr
                                     View view, const JointFitOptions& options = {});
 
 /// The rule a joint fit breaks, or an empty string when the points bear the stairway out.
-/// Rules: those of broken_rule() for graphs, "step-size-out-of-range", "steps-missing", "too-uncertain".
+/// Rules: those of broken_rule() for graphs, "step-size-out-of-range", "steps-missing", "too-uncertain",
+/// "beams-disagree".
 std::string broken_rule(const JointFit& fit, const StepLimits& limits, const ConfirmationOptions& confirmation,
                         const JointFitOptions& options);
 

@@ -108,7 +108,7 @@ TEST(BeamFit, has_nothing_to_say_without_a_sensor_of_spirals_or_of_no_steps) {
   EXPECT_FALSE(fit_beams(seen.corridor, none, {}));
 }
 
-TEST(BeamFit, refuses_a_flight_that_is_not_there_unless_it_finds_the_one_nearby) {
+TEST(BeamFit, does_not_explain_a_flight_that_is_not_there_unless_it_finds_the_one_nearby) {
   const Seen seen = look_at({}, 2.0);
   const Eigen::Vector3d truth = seen.start.model.nosing;
   for (const Eigen::Vector3d& off : {Eigen::Vector3d(0.15, 0.0, 0.08), Eigen::Vector3d(0.0, 0.0, 0.085),
@@ -116,7 +116,7 @@ TEST(BeamFit, refuses_a_flight_that_is_not_there_unless_it_finds_the_one_nearby)
     Seen wrong = seen;
     wrong.start.model.nosing += off;
     const std::optional<BeamFit> fit = fit_beams(wrong.corridor, wrong.start, {});
-    if (!fit || fit->explained < 0.6) continue;
+    if (!fit || fit->explained < 0.75) continue;
     const Eigen::Vector3d apart = fit->model.nosing - truth;
     const double steps = std::round(apart.z() / seen.start.model.height_m);
     EXPECT_NEAR(apart.z(), steps * seen.start.model.height_m, 0.01) << off.transpose();
