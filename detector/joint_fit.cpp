@@ -187,6 +187,10 @@ class JointFitter {
       fit_.offsets.clear();  // what steps measured one by one is off by more than steps are
       return;
     }
+    // Few beams may be left to explain; those must then lie the better.
+    constexpr double kHardlyExplained = 0.4;
+    constexpr double kPoor = 1.25;
+    fit_.is_contradicted = beams->explained < kHardlyExplained && beams->misfit > kPoor;
     fit_.model = beams->model;
     fit_.sigmas = beams->sigmas;
     constexpr double kMostExplained = 0.6;

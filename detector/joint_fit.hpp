@@ -38,7 +38,7 @@ struct JointFit {
   int first = 0;                     ///< number of the lowest step of which points were found
   int last = 0;                      ///< and of the highest
   bool on_landing = false;           ///< it begins on a floor of its own, which was seen below its lowest step
-  /// Risers and treads were measured, yet most single beams do not end on such a flight.
+  /// Faces and edges of steps were measured, yet most single beams do not end on such a flight.
   bool is_contradicted = false;
   int seen_steps = 0;                ///< how many of them have points
   std::vector<StepOffset> offsets;   ///< of the seen steps from the model
