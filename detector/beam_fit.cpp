@@ -22,7 +22,7 @@ constexpr std::array kKernels_sigmas{7.0, 5.0};
 constexpr std::size_t kFewestBeams = 100;
 constexpr double kLittle = 0.3;  // of chi^2: where spots meet edges the cost is rougher than that
 constexpr double kReach = 1e-4;  // of derivatives, in units of kFlightScale
-constexpr int kFewOf = 4;  // of so many beams one makes the first fit
+constexpr int kFewOf = 4;        // of so many beams one makes the first fit
 
 std::vector<double> finite_ranges(const Eigen::VectorXd& rows) {
   std::vector<double> ranges;
@@ -136,7 +136,8 @@ class BeamFitter {
     const Eigen::MatrixXd J = residuals_.derived(flight_, r, is_free_, kReach);
     double sum = 0.0;
     double gain = std::numeric_limits<double>::infinity();
-    for (int step = 0; step < kMostSteps && gain > kLittle; ++step) sum += gain = step_towards_beams(r, J, kernel_sigmas);
+    for (int step = 0; step < kMostSteps && gain > kLittle; ++step)
+      sum += gain = step_towards_beams(r, J, kernel_sigmas);
     return sum;
   }
 

@@ -40,9 +40,9 @@ struct JointFit {
   bool on_landing = false;           ///< it begins on a floor of its own, which was seen below its lowest step
   /// Faces and edges of steps were measured, yet most single beams do not end on such a flight.
   bool is_contradicted = false;
-  int seen_steps = 0;                ///< how many of them have points
-  std::vector<StepOffset> offsets;   ///< of the seen steps from the model
-  int measurements = 0;              ///< fronts, treads and undersides measured on them
+  int seen_steps = 0;               ///< how many of them have points
+  std::vector<StepOffset> offsets;  ///< of the seen steps from the model
+  int measurements = 0;             ///< fronts, treads and undersides measured on them
 };
 
 /// Fits one model to the points of a stairway: fronts fix d, s and delta phi, treads and the edges of sight fix h. A

@@ -18,9 +18,9 @@ namespace {
 
 // The points of an L, as where tread and riser meet, scatter a quarter as much across it as along it.
 constexpr double kFlat = 4.0;
-constexpr double kFilled = 0.6;       // of the variance of a square as wide as the cell
-constexpr double kStray = 2.5;        // thicknesses
-constexpr double kMostStrays = 0.02;  // of the points
+constexpr double kFilled = 0.6;            // of the variance of a square as wide as the cell
+constexpr double kStray = 2.5;             // thicknesses
+constexpr double kMostStrays = 0.02;       // of the points
 constexpr std::size_t kFewestCells = 500;  // for a thread of their own
 
 enum class CellUse : std::uint8_t { Patch, Halo, Loose };

@@ -93,8 +93,8 @@ SpotEcho echo_of(std::span<const VisibleFace> faces, const Elevation& at, double
   constexpr double kLeastShare = 0.002;
   const double low = at.rad - spread_rad;
   const double high = at.rad + spread_rad;
-  auto face =
-      std::lower_bound(faces.begin(), faces.end(), low, [](const VisibleFace& f, double below) { return f.end_rad < below; });
+  auto face = std::lower_bound(faces.begin(), faces.end(), low,
+                               [](const VisibleFace& f, double below) { return f.end_rad < below; });
   const auto range_on = [&](const VisibleFace& f, const Elevation& sight) {
     return f.kind == VisibleFace::Kind::Beyond ? backdrop.range_m(sight.rad) : f.distance_m(sight);
   };

@@ -151,10 +151,9 @@ Detection detect_stairways(const scan::PointCloud& cloud, const DetectorOptions&
     begin_stage(on_stage, "voxel_grid");
     thinned = voxel_centroids(cloud, options.voxel_m);
   }
-  std::vector<PlaneRegion> regions = by_patches
-                                         ? segment_by_patches(cloud, options.voxel_m, options.segmentation, on_stage,
-                                                              options.threads)
-                                         : segment(thinned, options.segmentation, on_stage, options.threads);
+  std::vector<PlaneRegion> regions =
+      by_patches ? segment_by_patches(cloud, options.voxel_m, options.segmentation, on_stage, options.threads)
+                 : segment(thinned, options.segmentation, on_stage, options.threads);
   begin_stage(on_stage, "plane_finder");
   const std::optional<SceneLevel> level = options.level.enabled ? level_by_scene(regions, options.level) : std::nullopt;
   if (!level)

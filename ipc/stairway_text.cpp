@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <vector>
 
 namespace stairway::ipc {
 namespace {
@@ -61,6 +62,22 @@ void append_table(std::string& out, const std::vector<Row>& rows) {
   }
 }
 
+std::string list_of(const std::vector<detect::StepSize>& sizes, double detect::StepSize::*value,
+                    double detect::StepSize::*sigma) {
+  std::string out;
+  for (const detect::StepSize& size : sizes)
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", with_sigma(1e3 * size.*value, 1e3 * size.*sigma));
+  return out;
+}
+
+void append_steps(std::string& out, std::size_t number, const detect::Stairway& stairway) {
+  using detect::StepSize;
+  out += fmt::format("  stairway {} is irregular; its steps from below:\n", number);
+  out +=
+      fmt::format("    heights [mm]  {}\n", list_of(stairway.step_sizes, &StepSize::height, &StepSize::height_sigma));
+  out += fmt::format("    depths [mm]   {}\n", list_of(stairway.step_sizes, &StepSize::depth, &StepSize::depth_sigma));
+}
+
 std::string durations(const Timings& timings) {
   std::string out;
   for (const auto& [stage, duration_ms] : timings) {
@@ -81,6 +98,8 @@ std::string detection_text(std::string_view source, std::size_t points, const Ti
     std::transform(detection.stairways.begin(), detection.stairways.end(), std::back_inserter(rows), row);
     append_table(out, rows);
   }
+  for (std::size_t i = 0; i < found; ++i)
+    if (detection.stairways[i].is_irregular) append_steps(out, i + 1, detection.stairways[i]);
   for (const detect::Rejection& rejection : detection.rejected) {
     out += fmt::format("  rejected: {} ({})\n", rejection.detail, rejection.reason);
   }

@@ -6,6 +6,7 @@
 #include <stairway/rejection_t.hpp>
 #include <stairway/stairway_t.hpp>
 #include <stairway/stairways_t.hpp>
+#include <stairway/step_t.hpp>
 
 #include "ipc/message_codec.hpp"
 #include "ipc/message_walker.hpp"
@@ -28,7 +29,9 @@ static_assert(stairway_t::RIGHT == static_cast<int>(detect::AnchorSide::Right));
 void walk_stairway(MessageWalker& walker) {
   walker.skip(2 * kWord + 2 + 13 * kWord + 3);
   const std::size_t nosings = walker.count();
-  walker.skip(nosings * 6 * kWord + kWord);
+  walker.skip(nosings * 6 * kWord + 1);
+  const std::size_t steps = walker.count();
+  walker.skip(steps * 4 * kWord + kWord);
 }
 
 void walk_rejection(MessageWalker& walker) {
@@ -73,6 +76,15 @@ stairway_t to_wire(const detect::Stairway& stairway, std::int64_t utime_us, std:
     std::copy_n(nosing.left.data(), 3, edge.left_m);
     std::copy_n(nosing.right.data(), 3, edge.right_m);
   }
+  wire.is_irregular = stairway.is_irregular;
+  wire.num_steps = static_cast<std::int32_t>(stairway.step_sizes.size());
+  for (const detect::StepSize& size : stairway.step_sizes) {
+    step_t& step = wire.steps.emplace_back();
+    step.height_m = size.height;
+    step.depth_m = size.depth;
+    step.height_sigma_m = size.height_sigma;
+    step.depth_sigma_m = size.depth_sigma;
+  }
   wire.score = stairway.score;
   return wire;
 }
@@ -101,6 +113,12 @@ std::optional<detect::Stairway> from_wire(const stairway_t& wire) {
   for (const nosing_t& nosing : wire.nosings) {
     stairway.nosings.push_back({Eigen::Vector3d(nosing.left_m), Eigen::Vector3d(nosing.right_m)});
   }
+  stairway.is_irregular = wire.is_irregular != 0;
+  for (const step_t& step : wire.steps)
+    stairway.step_sizes.push_back({.height = step.height_m,
+                                   .height_sigma = step.height_sigma_m,
+                                   .depth = step.depth_m,
+                                   .depth_sigma = step.depth_sigma_m});
   stairway.score = wire.score;
   return stairway;
 }

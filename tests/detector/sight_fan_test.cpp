@@ -41,12 +41,11 @@ bool is_within_or_behind(const Vector3d& p, const Vector3d& low, const Vector3d&
 }
 
 TEST(SightFan, holds_every_point_within_a_box_or_behind_it_wherever_the_box_lies) {
-  const std::vector<std::pair<Vector3d, Vector3d>> boxes = {
-      {{1.0, -0.5, 0.2}, {1.4, 0.5, 0.4}},     // ahead
-      {{-2.0, -0.5, 0.2}, {-1.6, 0.5, 0.4}},   // behind the sensor
-      {{0.2, -0.5, 2.0}, {0.5, 0.5, 2.2}},     // above it
-      {{0.1, -0.5, -1.0}, {0.6, 0.5, -0.8}},   // beneath it
-      {{0.0, -0.5, 0.8}, {0.6, 0.5, 1.2}}};    // around it
+  const std::vector<std::pair<Vector3d, Vector3d>> boxes = {{{1.0, -0.5, 0.2}, {1.4, 0.5, 0.4}},    // ahead
+                                                            {{-2.0, -0.5, 0.2}, {-1.6, 0.5, 0.4}},  // behind the sensor
+                                                            {{0.2, -0.5, 2.0}, {0.5, 0.5, 2.2}},    // above it
+                                                            {{0.1, -0.5, -1.0}, {0.6, 0.5, -0.8}},  // beneath it
+                                                            {{0.0, -0.5, 0.8}, {0.6, 0.5, 1.2}}};   // around it
   std::vector<Vector3d> points = points_all_around();
   const SightFan fan(points, kSensor, Vector3d(std::cos(0.2), std::sin(0.2), 0.0));
   for (const auto& [low, high] : boxes) {

@@ -34,6 +34,14 @@ void expect_equal(const detect::Stairway& a, const detect::Stairway& b) {
     EXPECT_EQ(a.nosings[i].left, b.nosings[i].left);
     EXPECT_EQ(a.nosings[i].right, b.nosings[i].right);
   }
+  EXPECT_EQ(a.is_irregular, b.is_irregular);
+  ASSERT_EQ(a.step_sizes.size(), b.step_sizes.size());
+  for (std::size_t i = 0; i < a.step_sizes.size(); ++i) {
+    EXPECT_EQ(a.step_sizes[i].height, b.step_sizes[i].height);
+    EXPECT_EQ(a.step_sizes[i].height_sigma, b.step_sizes[i].height_sigma);
+    EXPECT_EQ(a.step_sizes[i].depth, b.step_sizes[i].depth);
+    EXPECT_EQ(a.step_sizes[i].depth_sigma, b.step_sizes[i].depth_sigma);
+  }
 }
 
 TEST(MessageCodec, stairways_come_back_as_sent) {

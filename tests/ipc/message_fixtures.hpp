@@ -56,6 +56,9 @@ inline detect::Stairway sample_stairway() {
 inline StairwaysMessage sample_stairways() {
   StairwaysMessage message{1'700'000'000'000'001, 1'699'999'999'965'000, 7, false, {}, {42, 0}};
   message.detection.stairways = {sample_stairway(), {}};
+  message.detection.stairways[0].is_irregular = true;
+  message.detection.stairways[0].step_sizes = {
+      {0.17, 0.001, 0.29, 0.002}, {0.182, 0.0011, 0.288, 0.0021}, {0.165, 0.0012, 0.291, 0.0022}};
   message.detection.rejected = {{"too-few-steps", "2 steps, 3 are needed", {{"steps", 2.0}, {"limit", 3.0}}},
                                 {"", "", {}}};
   return message;

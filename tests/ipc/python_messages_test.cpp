@@ -77,6 +77,8 @@ TEST(PythonMessages, are_read_as_cpp_wrote_them) {
   EXPECT_EQ(got["angles_t"]["angles_rad"][1], 1.0 / 3.0);
   EXPECT_EQ(got["angles_t"]["valid"], json::parse("[true, false, true]"));
   EXPECT_EQ(got["stairways_t"]["stairways"][0]["nosings"][1]["right_m"], json::parse("[10.0, 11.0, 12.0]"));
+  EXPECT_EQ(got["stairways_t"]["stairways"][0]["is_irregular"], true);
+  EXPECT_EQ(got["stairways_t"]["stairways"][0]["steps"][1]["height_m"], 0.182);
   EXPECT_EQ(got["stairways_t"]["rejected"][0]["figure_names"], json::parse(R"(["steps", "limit"])"));
   EXPECT_EQ(got["health_t"]["reasons"], json::parse(R"(["encoder:disconnected", "not-recording"])"));
   EXPECT_EQ(got["health_t"]["stage_p95_ms"], json::parse("[1.2, 950.5]"));

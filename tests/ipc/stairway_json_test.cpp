@@ -68,6 +68,18 @@ TEST(DetectionText, shows_a_table_row_per_stairway_and_the_rejections) {
       "  time: total 812.3 ms, read 12.0 ms\n");
 }
 
+TEST(DetectionText, lists_the_steps_of_an_irregular_stairway_below_the_table) {
+  detect::Detection detection = one_stairway();
+  detection.stairways[0].is_irregular = true;
+  detection.stairways[0].step_sizes = {{0.17, 0.001, 0.29, 0.002}, {0.1821, 0.0011, 0.288, 0.0021}};
+  const std::string text = detection_text("a.pcd", 1000, {}, detection);
+  EXPECT_TRUE(
+      text.ends_with("  stairway 1 is irregular; its steps from below:\n"
+                     "    heights [mm]  170.0 +-1.0, 182.1 +-1.1\n"
+                     "    depths [mm]   290.0 +-2.0, 288.0 +-2.1\n"))
+      << text;
+}
+
 TEST(DetectionText, says_that_nothing_was_found) {
   EXPECT_EQ(detection_text("a.pcd", 5, {}, {}), "a.pcd: 5 points, no stairways\n");
 }

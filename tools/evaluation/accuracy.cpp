@@ -197,15 +197,14 @@ Table sigma_table(const std::vector<Measured>& all) {
 }
 
 Table step_table(const std::vector<Measured>& all) {
-  Table table{
-      .name = "accuracy-steps",
-      .title = "Height of every single step seen: mean absolute error; and flights that are called irregular",
-      .columns = {{"case", ""},
-                  {"steps", "", 0},
-                  {"step_height_error", "mm", 2},
-                  {"step_height_target", "mm", 2},
-                  {"called_irregular", "%", 1}},
-      .rows = {}};
+  Table table{.name = "accuracy-steps",
+              .title = "Height of every single step seen: mean absolute error; and flights that are called irregular",
+              .columns = {{"case", ""},
+                          {"steps", "", 0},
+                          {"step_height_error", "mm", 2},
+                          {"step_height_target", "mm", 2},
+                          {"called_irregular", "%", 1}},
+              .rows = {}};
   for (const Measured& measured : all) {
     if (!measured.of->has_stairs()) continue;
     std::vector<double> errors;
