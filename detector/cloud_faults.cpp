@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "detector/cell_groups.hpp"
 #include "detector/cloud_index.hpp"
 #include "detector/extents.hpp"
 #include "detector/statistics.hpp"
@@ -41,8 +42,18 @@ std::optional<double> extent(const scan::PointCloud& cloud) {
   return largest;
 }
 
-// Edge of the square of surface that a point has to itself, from how far its nearest neighbours reach.
-double typical_spacing(const scan::PointCloud& thinned) {
+// Edge of the square of surface that a point has to itself, from how many share a cell; right for dense clouds.
+double spacing_in_cells(const scan::PointCloud& cloud, double edge_m) {
+  const CellGroups cells = group_by_cell(cloud.points, edge_m);
+  std::vector<double> shared;
+  shared.reserve(cells.order.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    shared.insert(shared.end(), cells[i].size(), static_cast<double>(cells[i].size()));
+  return shared.empty() ? edge_m : edge_m / std::sqrt(median(std::move(shared)));
+}
+
+// The same from how far its nearest neighbours reach.
+double spacing_of_neighbours(const scan::PointCloud& thinned) {
   constexpr std::size_t kSample = 1000;
   constexpr std::size_t kNeighbours = 8;
   if (thinned.points.size() <= kNeighbours) return kLargestCloud_m;
@@ -55,6 +66,11 @@ double typical_spacing(const scan::PointCloud& thinned) {
     reaches.push_back((thinned.points[neighbours.back()] - thinned.points[i]).norm());
   }
   return median(std::move(reaches)) * std::sqrt(std::numbers::pi / static_cast<double>(kNeighbours));
+}
+
+double typical_spacing(const scan::PointCloud& cloud, double limit_m) {
+  const double rough = spacing_in_cells(cloud, 2.0 * limit_m);
+  return rough < 0.5 * limit_m ? rough : spacing_of_neighbours(cloud);
 }
 
 double tilt(const PlaneRegion& region) { return std::acos(std::min(std::abs(region.axes.normal().z()), 1.0)); }
@@ -90,8 +106,8 @@ std::optional<Rejection> cloud_fault(const scan::PointCloud& cloud, const scan::
                      .figures = {{"points", static_cast<double>(cloud.points.size())}}};
   if (*extent_m > kLargestCloud_m || *extent_m < kSmallestCloud_m) return wrong_units(*extent_m);
 
-  const double spacing = typical_spacing(thinned);
   const double spacing_limit = std::sqrt(kStepArea_m2 / min_points);
+  const double spacing = typical_spacing(thinned, spacing_limit);
   if (spacing > spacing_limit)
     return Rejection{.reason = "too-sparse",
                      .detail =
