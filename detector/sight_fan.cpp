@@ -11,12 +11,12 @@ namespace {
 constexpr double kQuarterTurns = 4.0;
 constexpr std::size_t kBuckets = 4096;
 
-// Rises from 0 straight up, over ahead and straight down, to 4 straight up again: as an angle does, but not evenly.
+// Rises from 0 at the start, over 1 ahead, to 4 at the start again: as an angle does, but not evenly.
 double turned_by(const Eigen::Vector2d& sight) {
   const double length = std::abs(sight.x()) + std::abs(sight.y());
   if (!(length > 0.0)) return 0.0;
-  const double fallen = 1.0 - sight.y() / length;
-  return sight.x() >= 0.0 ? fallen : kQuarterTurns - fallen;
+  const double from_start = 1.0 - sight.y() / length;
+  return sight.x() >= 0.0 ? from_start : kQuarterTurns - from_start;
 }
 
 std::size_t bucket_of(double turned) {
@@ -25,8 +25,9 @@ std::size_t bucket_of(double turned) {
 
 }  // namespace
 
-SightFan::SightFan(std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& sensor, const Eigen::Vector3d& ahead)
-    : sensor_(sensor), ahead_(ahead), starts_(kBuckets + 1, 0) {
+SightFan::SightFan(std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& sensor, const Eigen::Vector3d& start,
+                   const Eigen::Vector3d& ahead)
+    : sensor_(sensor), start_(start), ahead_(ahead), starts_(kBuckets + 1, 0) {
   std::vector<std::uint16_t> buckets(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     buckets[i] = static_cast<std::uint16_t>(bucket_of(turned_by(in_plane(points[i]))));
@@ -47,7 +48,7 @@ std::pair<std::size_t, std::size_t> SightFan::within_or_behind(std::span<const E
     first = std::min(first, turned);
     last = std::max(last, turned);
   }
-  // What spans half a turn is around the sensor or above it.
+  // What spans half a turn is around the sensor or at the start.
   if (last - first >= 0.5 * kQuarterTurns) return {0, starts_.back()};
   return {starts_[bucket_of(first)], starts_[bucket_of(last) + 1]};
 }

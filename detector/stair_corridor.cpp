@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "detector/stair_corridor.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -57,10 +58,21 @@ StairCorridor::StairCorridor(const scan::PointCloud& cloud, const StairModel& mo
   };
   if (model.is_spiral()) {
     pick(through_cylinder(model, sides));
+    if (sensor_) sort_around_spiral(model);
   } else {
     pick(through_slab(model, sides));
-    if (sensor_) fan_.emplace(points_, *sensor_, -model.descent);
+    if (sensor_) fan_.emplace(points_, *sensor_, Eigen::Vector3d::UnitZ(), -model.descent);
   }
+}
+
+// Its steps are seen beside each other rather than above each other.
+void StairCorridor::sort_around_spiral(const StairModel& model) {
+  const Eigen::Vector3d axis = model.step(0).from_step({.v = model.radius_m()});
+  Eigen::Vector3d away = *sensor_ - axis;
+  away.z() = 0.0;
+  if (!(away.norm() > 0.0)) away = Eigen::Vector3d::UnitX();
+  away.normalize();
+  fan_.emplace(points_, *sensor_, away, away.cross(Eigen::Vector3d::UnitZ()));
 }
 
 std::span<const Eigen::Vector3d> StairCorridor::points_at(std::span<const Eigen::Vector3d> corners) const {

@@ -25,12 +25,14 @@ class StairCorridor {
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
   /// A part of them that holds every one that lies within the hull of the corners or is seen past it. Small for a small
-  /// thing if the stairway is straight and the sensor known.
+  /// thing if the sensor is known.
   std::span<const Eigen::Vector3d> points_at(std::span<const Eigen::Vector3d> corners) const;
   /// Where the sensor stood, in the frame of the cloud; nothing when unknown or more than one place.
   const std::optional<Eigen::Vector3d>& sensor() const { return sensor_; }
 
  private:
+  void sort_around_spiral(const StairModel& model);
+
   std::vector<Eigen::Vector3d> points_;
   std::optional<Eigen::Vector3d> sensor_;
   std::optional<SightFan> fan_;

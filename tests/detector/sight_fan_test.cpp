@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <random>
 #include <vector>
@@ -46,21 +47,25 @@ TEST(SightFan, holds_every_point_within_a_box_or_behind_it_wherever_the_box_lies
                                                             {{0.2, -0.5, 2.0}, {0.5, 0.5, 2.2}},    // above it
                                                             {{0.1, -0.5, -1.0}, {0.6, 0.5, -0.8}},  // beneath it
                                                             {{0.0, -0.5, 0.8}, {0.6, 0.5, 1.2}}};   // around it
-  std::vector<Vector3d> points = points_all_around();
-  const SightFan fan(points, kSensor, Vector3d(std::cos(0.2), std::sin(0.2), 0.0));
-  for (const auto& [low, high] : boxes) {
-    SCOPED_TRACE(::testing::Message() << "box from " << low.transpose() << " to " << high.transpose());
-    const auto [first, last] = fan.within_or_behind(box(low, high));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (i >= first && i < last) continue;
-      ASSERT_FALSE(is_within_or_behind(points[i], low, high)) << points[i].transpose();
+  const Vector3d level(std::cos(0.2), std::sin(0.2), 0.0);
+  for (const auto& [start, ahead] : {std::pair<Vector3d, Vector3d>(Vector3d::UnitZ(), level),
+                                     std::pair<Vector3d, Vector3d>(level, Vector3d::UnitZ().cross(level))}) {
+    std::vector<Vector3d> points = points_all_around();
+    const SightFan fan(points, kSensor, start, ahead);
+    for (const auto& [low, high] : boxes) {
+      SCOPED_TRACE(::testing::Message() << "box from " << low.transpose() << " to " << high.transpose());
+      const auto [first, last] = fan.within_or_behind(box(low, high));
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (i >= first && i < last) continue;
+        ASSERT_FALSE(is_within_or_behind(points[i], low, high)) << points[i].transpose();
+      }
     }
   }
 }
 
 TEST(SightFan, holds_little_else_for_a_small_box) {
   std::vector<Vector3d> points = points_all_around();
-  const SightFan fan(points, kSensor, Vector3d::UnitX());
+  const SightFan fan(points, kSensor, Vector3d::UnitZ(), Vector3d::UnitX());
   const auto [first, last] = fan.within_or_behind(box({2.0, -0.5, 0.9}, {2.1, 0.5, 1.0}));
   EXPECT_LT(last - first, points.size() / 10);
 }
@@ -68,7 +73,7 @@ TEST(SightFan, holds_little_else_for_a_small_box) {
 TEST(SightFan, keeps_all_points) {
   std::vector<Vector3d> points = points_all_around();
   std::vector<Vector3d> sorted = points;
-  const SightFan fan(sorted, kSensor, Vector3d::UnitX());
+  const SightFan fan(sorted, kSensor, Vector3d::UnitZ(), Vector3d::UnitX());
   const auto less = [](const Vector3d& a, const Vector3d& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
   };
@@ -79,7 +84,7 @@ TEST(SightFan, keeps_all_points) {
 
 TEST(SightFan, of_no_points_is_empty) {
   std::vector<Vector3d> none;
-  const SightFan fan(none, kSensor, Vector3d::UnitX());
+  const SightFan fan(none, kSensor, Vector3d::UnitZ(), Vector3d::UnitX());
   EXPECT_EQ(fan.within_or_behind(box({1, 0, 0}, {2, 1, 1})), std::pair(std::size_t{0}, std::size_t{0}));
 }
 
