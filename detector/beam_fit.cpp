@@ -202,7 +202,7 @@ class BeamFitter {
 
   // What the place of an edge in the spot may be off by from step to step.
   double uneven_floor_m() const {
-    constexpr double kSpotShare = 0.02;
+    constexpr double kSpotShare = 0.03;
     return kSpotShare * usual_[kSpot] * residuals_.sensor_distance_m();
   }
 

@@ -14,7 +14,7 @@ namespace stairway::detect {
 namespace {
 
 constexpr double kBeyond_m = 0.6;
-constexpr double kEndFloor_m = 0.002;  // what an end may be off by for reasons its scatter does not show
+constexpr double kEndFloor_m = 0.004;  // what an end may be off by for reasons its scatter does not show
 
 /// A line of sight that crosses the flight's face near an end; `out_m` grows outwards.
 struct Crossing {
