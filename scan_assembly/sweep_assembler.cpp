@@ -175,6 +175,7 @@ void SweepAssembler::append_run(std::size_t begin, std::size_t end) {
   sweep.beams.insert(sweep.beams.end(), placed_.beams.begin() + from, placed_.beams.begin() + to);
   sweep.lines.insert(sweep.lines.end(), end - begin, static_cast<std::uint32_t>(line_ - first_line_));
   sweep.statistics.beams.kept += end - begin;
+  sweep.statistics.covered_angle_rad = max_angle_rad_ - min_angle_rad_;
 }
 
 void SweepAssembler::follow_turn(double angle_rad, HostStamp stamp_ns) {
@@ -231,7 +232,6 @@ void SweepAssembler::cut_sweep(SweepEnd end) {
 
 void SweepAssembler::end_sweep(SweepEnd end) {
   sweep_->statistics.end = end;
-  if (!sweep_->cloud.points.empty()) sweep_->statistics.covered_angle_rad = max_angle_rad_ - min_angle_rad_;
   expected_points_ = sweep_->cloud.points.size();
   finished_.push_back(std::move(*sweep_));
   sweep_.reset();

@@ -45,13 +45,13 @@ enum class SweepEnd {
 const char* to_string(SweepEnd end);
 
 struct SweepStatistics {
-  SweepEnd end = SweepEnd::FullTurn;
-  bool is_whole_turn = false;       ///< began and ended at whole turns of the disk
-  double covered_angle_rad = 0.0;   ///< between the smallest and the largest disk angle of its points [rad]
-  BeamCounts beams;                 ///< of its scans; a scan across the cut counts where it began, but for `kept`
-  std::uint64_t scans = 0;          ///< mirror turns that began in it
-  std::uint64_t lost_scans = 0;     ///< missing between them by their sequence numbers
-  std::uint64_t hurried_scans = 0;  ///< placed before their angle was known, since too many were waiting
+  SweepEnd end = SweepEnd::FullTurn;  ///< says nothing before the sweep has ended
+  bool is_whole_turn = false;         ///< began and ended at whole turns of the disk
+  double covered_angle_rad = 0.0;     ///< between the smallest and the largest disk angle of its points [rad]
+  BeamCounts beams;                   ///< of its scans; a scan across the cut counts where it began, but for `kept`
+  std::uint64_t scans = 0;            ///< mirror turns that began in it
+  std::uint64_t lost_scans = 0;       ///< missing between them by their sequence numbers
+  std::uint64_t hurried_scans = 0;    ///< placed before their angle was known, since too many were waiting
 
   /// Whether it covers a turn, but for a degree or three, wherever it began.
   bool covers_whole_turn() const { return covered_angle_rad >= 0.99 * 2.0 * std::numbers::pi; }
@@ -92,6 +92,10 @@ class SweepAssembler {
   /// The oldest finished sweep; empty when none is. Call it after every `add`: of sweeps nobody takes, the newest two
   /// are kept.
   std::optional<Sweep> take_sweep();
+
+  /// What the next sweep holds so far, up to the last beam of its newest scan that is placed; null when none has begun.
+  /// It grows with the next `add`: whoever wants to look at it for longer takes a copy.
+  const Sweep* sweep_under_way() const { return sweep_ ? &*sweep_ : nullptr; }
 
   /// Places what is waiting with the angles there are and ends the sweep, if it has begun.
   void flush();

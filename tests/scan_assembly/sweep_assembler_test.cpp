@@ -84,6 +84,28 @@ TEST(SweepAssembler, cuts_a_sweep_per_turn_of_the_disk_in_either_direction) {
   }
 }
 
+TEST(SweepAssembler, copy_of_the_sweep_under_way_is_what_the_whole_one_begins_with) {
+  Rig rig(fast_scanner(kTurn_rad));
+  EXPECT_EQ(rig.assembler.sweep_under_way(), nullptr);
+  rig.run(1.5);
+  ASSERT_NE(rig.assembler.sweep_under_way(), nullptr);
+  const Sweep part = *rig.assembler.sweep_under_way();
+  rig.run(2.2);
+  ASSERT_GT(rig.sweeps.size(), part.number);
+  const Sweep& whole = rig.sweeps[part.number];
+  EXPECT_EQ(part.number, whole.number);
+  EXPECT_EQ(part.begin_ns, whole.begin_ns);
+  EXPECT_LT(part.end_ns, 1'500 * kMs);
+  EXPECT_GT(part.end_ns, 1'440 * kMs);
+  const double seconds = 1e-9 * static_cast<double>(part.end_ns - part.begin_ns);
+  EXPECT_NEAR(part.statistics.covered_angle_rad, kTurn_rad * seconds, 0.05);
+  EXPECT_EQ(part.statistics.beams.kept, part.cloud.points.size());
+  EXPECT_EQ(part.cloud.sensor_origin, whole.cloud.sensor_origin);
+  ASSERT_GT(part.cloud.points.size(), 10000U);
+  ASSERT_LT(part.cloud.points.size(), whole.cloud.points.size());
+  EXPECT_TRUE(std::equal(part.cloud.points.begin(), part.cloud.points.end(), whole.cloud.points.begin()));
+}
+
 TEST(SweepAssembler, gives_a_flat_room_although_the_disk_turns_fast) {
   Rig rig(fast_scanner(kTurn_rad));
   rig.run(2.2);
