@@ -48,6 +48,11 @@ struct SimulationOptions {
   std::string problem() const;
 };
 
+/// Answers while the disk still turns.
+struct PreviewOptions {
+  double every_s = 1.0;  ///< of a sweep's own time between two of them [s], 0..600; 0: none
+};
+
 /// Where the daemon's measurements come from.
 enum class SourceKind {
   Hardware,  ///< scanner, motor and encoder of this robot
@@ -94,6 +99,7 @@ struct Settings {
   scan::MountOptions mount;
   scan::SweepOptions sweep;
   detect::DetectorOptions detector;
+  PreviewOptions preview;
   InputOptions input;
   SimulationOptions simulate;
   ipc::RecordOptions record;

@@ -175,6 +175,12 @@ void add_sweep_settings(std::vector<Entry>& table, scan::SweepOptions& sweep) {
       .whole("max_angle_samples", sweep.angle.max_samples, 2, 10000000, "disk angles kept");
 }
 
+void add_preview_settings(std::vector<Entry>& table, PreviewOptions& preview) {
+  Section(table, "preview")
+      .real("every", preview.every_s, kSecond, {0, 600},
+            "sweep time between answers to a part of the sweep, where they show a stairway; 0: whole sweeps only");
+}
+
 void add_input_settings(std::vector<Entry>& table, InputOptions& input) {
   Section(table, "input")
       .vector("gravity", input.gravity, "downwards in the frame of a cloud file, e.g. from its IMU; [] is along -z")
@@ -318,6 +324,7 @@ std::vector<Entry> settings_table(Settings& settings) {
   add_mount_settings(table, settings.mount);
   add_sweep_settings(table, settings.sweep);
   add_detector_settings(table, settings.detector);
+  add_preview_settings(table, settings.preview);
   add_input_settings(table, settings.input);
   add_simulation_settings(table, settings.simulate);
   add_record_settings(table, settings.record);

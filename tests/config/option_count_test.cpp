@@ -54,6 +54,7 @@ TEST(Options, every_member_has_a_key) {
       {"disk", count_members<drivers::DiskOptions>(), 0},
       {"record", count_members<ipc::RecordOptions>(), 0},
       {"replay", count_members<ReplayOptions>(), 0},
+      {"preview", count_members<PreviewOptions>(), 0},
       {"command", count_members<CommandOptions>(), 0},
       {"cloud", count_members<ipc::CloudOptions>(), 0},
       {"source", count_members<SourceOptions>(), 0},

@@ -12,7 +12,7 @@ namespace stairway::tools {
 namespace {
 
 bool decides(std::string_view key) {
-  constexpr std::string_view kSections[] = {"mount.", "sweep.", "detector."};
+  constexpr std::string_view kSections[] = {"mount.", "sweep.", "detector.", "preview."};
   return std::ranges::any_of(kSections, [&](std::string_view section) { return key.starts_with(section); });
 }
 

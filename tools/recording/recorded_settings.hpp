@@ -14,8 +14,8 @@ struct RecordedSettings {
   std::vector<std::string> unknown_keys;  ///< this version has no such keys; they were left out
 };
 
-/// Takes mount, sweep and detector from the text of a settings message; where messages go, what is recorded and so on
-/// is the affair of whoever plays it.
+/// Takes mount, sweep, detector and preview from the text of a settings message; where messages go, what is recorded
+/// and so on is the affair of whoever plays it.
 RecordedSettings recorded_settings(std::string_view toml);
 
 }  // namespace stairway::tools
