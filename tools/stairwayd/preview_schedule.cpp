@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The stairwayd authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/stairwayd/preview_schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace stairway::daemon {
+namespace {
+
+constexpr std::size_t kFewestPoints = 20000;
+constexpr double kLeastGrowth_rad = 0.05;
+constexpr double kFirstLook_rad = 0.55 * 2.0 * std::numbers::pi;  // half a turn, and what a stairway is wide
+constexpr double kLargestPart_rad = 0.9 * 2.0 * std::numbers::pi;
+constexpr std::int64_t kSecondLookPause = 4;
+
+}  // namespace
+
+PreviewSchedule::PreviewSchedule(const config::PreviewOptions& options)
+    : every_ns_(std::llround(1e9 * options.every_s)) {}
+
+bool PreviewSchedule::take_due(const scan::Sweep& so_far) {
+  if (every_ns_ == 0) return false;
+  if (sweep_ != so_far.number) {
+    sweep_ = so_far.number;
+    last_ns_ = so_far.begin_ns;
+    last_angle_rad_ = 0.0;
+  }
+  // The first sweep's begin moves until the disk's angle is known.
+  last_ns_ = std::max(last_ns_, so_far.begin_ns);
+  const double angle_rad = so_far.statistics.covered_angle_rad;
+  const std::int64_t pause_ns = last_angle_rad_ < kFirstLook_rad ? every_ns_ : kSecondLookPause * every_ns_;
+  if (so_far.end_ns - last_ns_ < pause_ns || so_far.cloud.points.size() < kFewestPoints) return false;
+  if (angle_rad < last_angle_rad_ + kLeastGrowth_rad || angle_rad > kLargestPart_rad) return false;
+  last_ns_ = so_far.end_ns;
+  last_angle_rad_ = angle_rad;
+  return true;
+}
+
+}  // namespace stairway::daemon
