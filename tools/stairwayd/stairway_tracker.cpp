@@ -4,16 +4,42 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 namespace stairway::daemon {
 namespace {
 
+using detect::Nosing;
+using detect::Stairway;
+
 constexpr double kSamePlace_m = 0.3;
 constexpr int kMaxMissedPasses = 3;
+constexpr double kFarAway_m = std::numeric_limits<double>::infinity();
 
-// The middle of the nosing: the anchor itself changes its side with the railings that are seen.
-Eigen::Vector3d entry(const detect::Stairway& stairway) {
-  return stairway.nosings.empty() ? stairway.anchor : stairway.met_nosing().middle();
+// The anchor itself changes its side with the railings that are seen.
+Nosing entry(const Stairway& stairway) {
+  return stairway.nosings.empty() ? Nosing{stairway.anchor, stairway.anchor} : stairway.met_nosing();
+}
+
+double distance_m(const Eigen::Vector3d& point, const Nosing& edge) {
+  const Eigen::Vector3d along = edge.right - edge.left;
+  const double length2 = along.squaredNorm();
+  const double share = length2 > 0.0 ? std::clamp((point - edge.left).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (point - edge.left - share * along).norm();
+}
+
+bool is_same_sort(const Stairway& one, const Stairway& other) {
+  return one.kind == other.kind && one.direction == other.direction;
+}
+
+/// Infinite when they cannot be the same.
+double distance_m(const std::optional<Stairway>& before, const Stairway& now, bool may_be_parts) {
+  if (!before || !is_same_sort(*before, now)) return kFarAway_m;
+  const Nosing one = entry(*before), other = entry(now);
+  const double middles_m = (one.middle() - other.middle()).norm();
+  const double edges_m =
+      may_be_parts ? std::min(distance_m(one.middle(), other), distance_m(other.middle(), one)) : middles_m;
+  return edges_m < kSamePlace_m ? middles_m : kFarAway_m;
 }
 
 struct Pair {
@@ -24,32 +50,41 @@ struct Pair {
 
 }  // namespace
 
-std::vector<std::int64_t> StairwayTracker::follow(std::span<const detect::Stairway> stairways) {
+std::vector<std::int64_t> StairwayTracker::follow(std::span<const Stairway> stairways) {
+  std::vector<std::int64_t> ids = number(stairways, false);
+  for (Track& track : tracks_) track.missed_passes = track.is_seen ? 0 : track.missed_passes + 1;
+  std::erase_if(tracks_, [](const Track& track) { return track.missed_passes > kMaxMissedPasses; });
+  return ids;
+}
+
+std::vector<std::int64_t> StairwayTracker::follow_preview(std::span<const Stairway> stairways) {
+  return number(stairways, true);
+}
+
+std::vector<std::int64_t> StairwayTracker::number(std::span<const Stairway> stairways, bool is_preview) {
   std::vector<Pair> pairs;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    tracks_[t].is_seen = false;
     for (std::size_t s = 0; s < stairways.size(); ++s) {
-      const detect::Stairway &before = tracks_[t].last, &now = stairways[s];
-      const double distance_m = (entry(before) - entry(now)).norm();
-      if (before.kind == now.kind && before.direction == now.direction && distance_m < kSamePlace_m)
-        pairs.push_back({distance_m, t, s});
+      const double nearest_m = std::min(distance_m(tracks_[t].last, stairways[s], is_preview),
+                                        distance_m(tracks_[t].preview, stairways[s], true));
+      if (nearest_m < kFarAway_m) pairs.push_back({nearest_m, t, s});
     }
   }
   std::ranges::sort(pairs, {}, &Pair::distance_m);
 
-  for (Track& track : tracks_) ++track.missed_passes;
   std::vector<std::int64_t> ids(stairways.size(), 0);
+  const auto note = [&](Track& track, std::size_t stairway) {
+    ids[stairway] = track.id;
+    track.is_seen = true;
+    (is_preview ? track.preview : track.last) = stairways[stairway];
+    if (!is_preview) track.preview.reset();
+  };
   for (const Pair& pair : pairs) {
-    Track& track = tracks_[pair.track];
-    if (track.missed_passes == 0 || ids[pair.stairway] != 0) continue;
-    track.missed_passes = 0;
-    track.last = stairways[pair.stairway];
-    ids[pair.stairway] = track.id;
+    if (!tracks_[pair.track].is_seen && ids[pair.stairway] == 0) note(tracks_[pair.track], pair.stairway);
   }
-  std::erase_if(tracks_, [](const Track& track) { return track.missed_passes > kMaxMissedPasses; });
   for (std::size_t s = 0; s < stairways.size(); ++s) {
-    if (ids[s] != 0) continue;
-    ids[s] = next_id_++;
-    tracks_.push_back({ids[s], stairways[s]});
+    if (ids[s] == 0) note(tracks_.emplace_back(Track{next_id_++, {}, {}}), s);
   }
   return ids;
 }
