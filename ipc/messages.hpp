@@ -53,7 +53,8 @@ struct StairwaysMessage {
   std::int64_t sweep = 0;
   bool is_final = true;
   detect::Detection detection;
-  std::vector<std::int64_t> track_ids;  ///< one per stairway; missing ones count as 0, not tracked
+  std::vector<std::int64_t> track_ids;       ///< one per stairway; missing ones count as 0, not tracked
+  std::vector<std::int64_t> seen_utimes_us;  ///< likewise, when it was seen; missing ones count as `utime_us`
 };
 
 /// A device in health_t.

@@ -155,7 +155,8 @@ Bytes encode(const StairwaysMessage& message) {
   wire.num_stairways = static_cast<std::int32_t>(stairways.size());
   for (std::size_t i = 0; i < stairways.size(); ++i) {
     const std::int64_t track_id = i < message.track_ids.size() ? message.track_ids[i] : 0;
-    wire.stairways.push_back(to_wire(stairways[i], message.utime_us, track_id));
+    const auto& seen_us = message.seen_utimes_us;
+    wire.stairways.push_back(to_wire(stairways[i], i < seen_us.size() ? seen_us[i] : message.utime_us, track_id));
   }
   wire.num_rejected = static_cast<std::int32_t>(message.detection.rejected.size());
   for (const detect::Rejection& rejection : message.detection.rejected) wire.rejected.push_back(to_wire(rejection));
@@ -176,6 +177,7 @@ tl::expected<StairwaysMessage, MessageFault> decode<StairwaysMessage>(std::span<
     if (!stairway) return tl::unexpected(MessageFault::ImpossibleValue);
     message.detection.stairways.push_back(std::move(*stairway));
     message.track_ids.push_back(entry.track_id);
+    message.seen_utimes_us.push_back(entry.utime);
   }
   for (const rejection_t& entry : wire->rejected) message.detection.rejected.push_back(from_wire(entry));
   return message;

@@ -45,7 +45,8 @@ void expect_equal(const detect::Stairway& a, const detect::Stairway& b) {
 }
 
 TEST(MessageCodec, stairways_come_back_as_sent) {
-  const StairwaysMessage sent = test::sample_stairways();
+  StairwaysMessage sent = test::sample_stairways();
+  sent.seen_utimes_us = {sent.utime_us - 5};
   const auto got = decode<StairwaysMessage>(encode(sent));
   ASSERT_TRUE(got) << to_string(got.error());
   EXPECT_EQ(got->utime_us, sent.utime_us);
@@ -53,6 +54,7 @@ TEST(MessageCodec, stairways_come_back_as_sent) {
   EXPECT_EQ(got->sweep, sent.sweep);
   EXPECT_EQ(got->is_final, sent.is_final);
   EXPECT_EQ(got->track_ids, sent.track_ids);
+  EXPECT_EQ(got->seen_utimes_us, (std::vector{sent.utime_us - 5, sent.utime_us}));
   ASSERT_EQ(got->detection.stairways.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) expect_equal(got->detection.stairways[i], sent.detection.stairways[i]);
   ASSERT_EQ(got->detection.rejected.size(), 2U);
