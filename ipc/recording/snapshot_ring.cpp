@@ -21,7 +21,7 @@ void SnapshotRing::add(StoredEvent event) {
   bytes_ += event.log_bytes();
   events_.push_back(std::move(event));
   if (events_.back().channel == channels_.stairways) {
-    if (const auto answer = decode<StairwaysMessage>(events_.back().bytes)) {
+    if (const auto answer = decode<StairwaysMessage>(events_.back().bytes); answer && answer->is_final) {
       sweep_starts_us_.push_back(answer->sweep_start_utime_us);
       if (sweep_starts_us_.size() > sweeps_) sweep_starts_us_.pop_front();
       if (sweep_starts_us_.size() == sweeps_) forget_before(sweep_starts_us_.front() - kLead_us);

@@ -12,8 +12,9 @@
 
 namespace stairway::ipc {
 
-/// The messages of the last sweeps. A sweep has ended when its answer is there; what came before the first beam of the
-/// oldest sweep that is kept is forgotten.
+/// The messages of the last sweeps. A sweep has ended when its final answer is there; what came before the first beam
+/// of the oldest sweep that is kept is forgotten. Sweeps of a part of a turn are kept with the whole one in front of
+/// them.
 class SnapshotRing {
  public:
   /// @param sweeps  how many, at least 1.

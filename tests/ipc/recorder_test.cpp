@@ -213,7 +213,7 @@ TEST(Recorder, a_disk_in_trouble_keeps_nobody_waiting_and_what_is_lost_is_counte
   EXPECT_NE(recorder.status().trouble, "");
 }
 
-// Scans of a sweep that lasts a second, then its answer.
+// Scans of a sweep that lasts a second, then a preview and its answer.
 void add_sweep(Recorder& recorder, std::int64_t sweep) {
   const std::int64_t start_us = 1'000'000 * (sweep + 1);
   for (int i = 0; i < 40; ++i) {
@@ -224,6 +224,9 @@ void add_sweep(Recorder& recorder, std::int64_t sweep) {
   StairwaysMessage answer;
   answer.sweep = sweep;
   answer.sweep_start_utime_us = start_us;
+  answer.is_final = false;
+  recorder.add(kChannels.stairways, encode(answer), start_us + 500'000);
+  answer.is_final = true;
   answer.utime_us = start_us + 1'000'000;
   recorder.add(kChannels.stairways, encode(answer), answer.utime_us);
 }
@@ -236,12 +239,12 @@ TEST(Recorder, snapshot_holds_the_settings_and_the_last_sweeps) {
   recorder.add(kChannels.settings, encode(SettingsMessage{1, "1", "x"}), 1);
   for (std::int64_t sweep = 0; sweep < 5; ++sweep) add_sweep(recorder, sweep);
   // What is kept reaches back as far as the angles that the oldest scans need.
-  ASSERT_TRUE(comes_true([&] { return recorder.status().events == 2 * 41 + 8 + 1; }));
+  ASSERT_TRUE(comes_true([&] { return recorder.status().events == 2 * 42 + 8 + 2; }));
   EXPECT_TRUE(files_in(folder.path()).empty());
   ASSERT_TRUE(recorder.request_snapshot());
   ASSERT_TRUE(comes_true([&] { return recorder.status().snapshots == 1; }));
   const auto events = read_all(recorder.status().file);
-  ASSERT_EQ(events.size(), 2u * 41 + 8 + 1 + 1);
+  ASSERT_EQ(events.size(), 2u * 42 + 8 + 2 + 1);
   EXPECT_EQ(events.front().channel, kChannels.settings);
   EXPECT_EQ(decode<StairwaysMessage>(events.back().bytes)->sweep, 4);
   EXPECT_TRUE(recorder.status().file.filename().string().starts_with("snapshot-000001-"));
