@@ -74,7 +74,7 @@ std::optional<Watched> watch(const std::vector<std::string>& arguments, std::int
   DaemonProcess daemon(arguments);
   const auto on_answer = [&](const ipc::BusMessage& message) {
     const auto answer = ipc::decode<ipc::StairwaysMessage>(message.bytes);
-    if (!answer) return;
+    if (!answer || !answer->is_final) return;
     watched.sweeps = answer->sweep + 1;
     watched.without_stairway += answer->detection.stairways.empty() ? 1 : 0;
     watched.rss_kb.push_back(memory_kb(daemon.id(), "VmRSS"));

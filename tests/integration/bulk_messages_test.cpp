@@ -56,8 +56,8 @@ TEST_F(BulkMessages, slices_of_a_cloud_arrive_and_make_the_cloud_again) {
   keep(kChannels.cloud, slices);
   keep(kChannels.stairways, answers);
   DaemonProcess daemon({"--simulate=straight-flight", "--set", "simulate.speed=0", "--set", "disk.period_s=6", "--set",
-                        "detector.voxel_mm=30", "--set", "cloud.send=true", "--set", "lcm.scans=false", "--log-level",
-                        "debug"});
+                        "detector.voxel_mm=30", "--set", "cloud.send=true", "--set", "preview.every_s=0", "--set",
+                        "lcm.scans=false", "--log-level", "debug"});
   const auto is_second_complete = [&] {
     return !slices.empty() && slices.back().sweep == 1 && slices.back().slice + 1 == slices.back().slices;
   };

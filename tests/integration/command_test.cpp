@@ -20,9 +20,10 @@ using namespace std::chrono_literals;
 constexpr auto kPatience = 200s;
 
 // A disk that turns in four seconds, four times as fast as real, with scans that are quickly made.
-const std::vector<std::string> kDaemon{"--simulate=empty-room", "--set", "simulate.speed=4",       "--set",
-                                       "disk.mode=idle",        "--set", "disk.period_s=4",        "--set",
-                                       "lidar.cluster=10",      "--set", "disk.check_window_s=0.3"};
+const std::vector<std::string> kDaemon{"--simulate=empty-room", "--set", "simulate.speed=4",        "--set",
+                                       "disk.mode=idle",        "--set", "disk.period_s=4",         "--set",
+                                       "lidar.cluster=10",      "--set", "disk.check_window_s=0.3", "--set",
+                                       "preview.every_s=0"};
 
 struct Answer {
   int exit_code = -1;

@@ -132,6 +132,20 @@ TEST(HealthBook, results_have_an_age_from_their_first_on) {
   EXPECT_EQ(health.stages, (std::vector<ipc::StageHealth>{{"total", 4.0, 8.0}}));
 }
 
+TEST(HealthBook, preview_may_show_a_stairway_but_does_not_deny_one) {
+  HealthBook book(kStart);
+  ipc::StairwaysMessage preview{.sweep = 3, .is_final = false};
+  book.note_preview(preview, {{"fit", 1.0}, {"total", 8.0}}, kStart);
+  EXPECT_EQ(book.report(kStart, 0).result, ipc::ResultHealth{});
+  preview.detection.stairways.resize(1);
+  book.note_preview(preview, {{"fit", 1.0}, {"total", 9.0}}, kStart + 1s);
+  const ipc::HealthMessage health = book.report(kStart + 3s, 0);
+  EXPECT_EQ(health.result.stairways, -1);
+  EXPECT_EQ(health.result.stairway_sweep, 3);
+  EXPECT_DOUBLE_EQ(health.result.stairway_age_s, 2.0);
+  EXPECT_EQ(health.stages, (std::vector<ipc::StageHealth>{{"preview", 8.0, 9.0}}));
+}
+
 TEST(StageStatistics, percentiles_are_those_of_the_last_hundred_runs) {
   StageStatistics stages;
   for (int i = 0; i < 50; ++i) stages.add("fit", 1e6);

@@ -19,8 +19,8 @@ using namespace std::chrono_literals;
 constexpr std::int64_t kScanPeriod_ns = 25'000'000;
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
-// A disk that turns once in 40 scans, with scans of 100 beams that see a wall around the scanner.
-std::vector<SourceEvent> turning_events(int scans) {
+// A disk that turns once in 40 scans, which see a wall around the scanner.
+std::vector<SourceEvent> turning_events(int scans, std::size_t beams = 100) {
   std::vector<SourceEvent> events{SourceState{Device::Scanner, Condition::Good, "playing"}};
   for (int i = 0; i <= scans; ++i) {
     const std::int64_t stamp_ns = i * kScanPeriod_ns;
@@ -29,11 +29,11 @@ std::vector<SourceEvent> turning_events(int scans) {
     drivers::LaserScan scan;
     scan.sequence = static_cast<std::uint64_t>(i);
     scan.first_beam_stamp_ns = stamp_ns;
-    scan.beam_interval_ns = 240'000.0;
+    scan.beam_interval_ns = 24e6 / static_cast<double>(beams);
     scan.first_angle_rad = -0.5;
-    scan.angle_increment_rad = 0.01;
-    scan.ranges_m.assign(100, 3.0F);
-    scan.statuses.assign(100, drivers::BeamStatus::Ok);
+    scan.angle_increment_rad = 1.0 / static_cast<double>(beams);
+    scan.ranges_m.assign(beams, 3.0F);
+    scan.statuses.assign(beams, drivers::BeamStatus::Ok);
     events.emplace_back(std::move(scan));
   }
   return events;
@@ -96,10 +96,10 @@ const ipc::Channels kChannels;
 
 class PipelineTest : public testing::Test {
  protected:
-  std::unique_ptr<Pipeline> start(std::vector<SourceEvent> events, Pipeline::PassListener on_pass = {}) {
-    return std::make_unique<Pipeline>(config::Settings{},
-                                      std::make_unique<ScriptedSource>(std::move(events), is_stopped), outbox.publish(),
-                                      std::move(on_pass));
+  std::unique_ptr<Pipeline> start(std::vector<SourceEvent> events, Pipeline::PassListener on_pass = {},
+                                  const config::Settings& settings = {}) {
+    return std::make_unique<Pipeline>(settings, std::make_unique<ScriptedSource>(std::move(events), is_stopped),
+                                      outbox.publish(), std::move(on_pass));
   }
   std::size_t answers() { return outbox.sent<ipc::StairwaysMessage>(kChannels.stairways).size(); }
 
@@ -156,6 +156,27 @@ TEST_F(PipelineTest, slow_detector_gets_the_newest_sweep_and_the_others_are_coun
   EXPECT_LE(passes, 3);
   ASSERT_TRUE(drops.contains("unseen-sweeps"));
   EXPECT_EQ(drops.at("unseen-sweeps"), 6 - passes);
+}
+
+TEST_F(PipelineTest, previews_neither_replace_sweeps_nor_count_as_lost) {
+  config::Settings settings;
+  settings.preview.every_s = 0.2;
+  std::atomic<std::int64_t> answers = 0, previews = 0;
+  std::atomic<bool> is_slow = true;
+  const auto on_pass = [&](const Pass& pass) {
+    ++(pass.is_preview ? previews : answers);
+    while (is_slow) std::this_thread::sleep_for(1ms);
+  };
+  const auto pipeline = start(turning_events(40 * 6 + 30, 1000), on_pass, settings);
+  EXPECT_TRUE(comes_true([&] { return pipeline->report().sweep == 6; }));
+  is_slow = false;
+  const auto unseen = [&] {
+    const auto listed = pipeline->report().drops;
+    const std::map<std::string, std::int64_t> drops(listed.begin(), listed.end());
+    return drops.contains("unseen-sweeps") ? drops.at("unseen-sweeps") : 0;
+  };
+  EXPECT_TRUE(comes_true([&] { return answers + unseen() == 6; })) << answers << " answers, " << unseen() << " unseen";
+  EXPECT_LE(previews, 2);
 }
 
 TEST_F(PipelineTest, progresses_without_measurements_and_without_sweeps) {

@@ -35,17 +35,22 @@ bool comes_true(Condition condition) {
   return true;
 }
 
-/// Keeps the answers and scans that were sent.
+/// Keeps the answers, previews among them, and the scans that were sent.
 class Sent {
  public:
   void add(const std::string& channel, std::span<const std::uint8_t> bytes) {
     if (channel != kChannels.stairways && channel != kChannels.scan) return;
     const std::lock_guard lock(mutex_);
     (channel == kChannels.stairways ? answers : scans).emplace_back(bytes.begin(), bytes.end());
+    if (channel == kChannels.stairways && ipc::decode<ipc::StairwaysMessage>(bytes)->is_final) ++final_answers_;
   }
   std::size_t answer_count() {
     const std::lock_guard lock(mutex_);
     return answers.size();
+  }
+  std::size_t final_answer_count() {
+    const std::lock_guard lock(mutex_);
+    return final_answers_;
   }
 
   std::vector<ipc::Bytes> answers;
@@ -53,6 +58,7 @@ class Sent {
 
  private:
   std::mutex mutex_;
+  std::size_t final_answers_ = 0;
 };
 
 std::unique_ptr<ReplaySource> open_replay(const std::filesystem::path& path, double speed = 0.0) {
@@ -73,7 +79,7 @@ config::Settings quick_settings() {
   return settings;
 }
 
-// Runs the simulated robot until it has given this many answers, and records it.
+// Runs the simulated robot until it has given this many final answers, and records it.
 std::filesystem::path record_run(const TemporaryFolder& folder, std::size_t answers, Sent& sent) {
   ipc::RecordOptions options;
   options.mode = ipc::RecordMode::Continuous;
@@ -88,7 +94,7 @@ std::filesystem::path record_run(const TemporaryFolder& folder, std::size_t answ
   const config::Settings settings = quick_settings();
   Pipeline pipeline(settings, std::make_unique<SimulatedSource>(settings, 1'700'000'000'000'000), publish);
   pipeline.report();
-  EXPECT_TRUE(comes_true([&] { return sent.answer_count() >= answers; }));
+  EXPECT_TRUE(comes_true([&] { return sent.final_answer_count() >= answers; }));
   pipeline.stop();
   recorder.close();
   EXPECT_EQ(recorder.status().lost_events, 0u);
@@ -113,6 +119,7 @@ TEST(Replay, gives_the_answers_and_scans_of_the_run_to_the_last_byte) {
   EXPECT_TRUE(comes_true([&] { return replayed.answer_count() >= live.answers.size(); }));
   pipeline.stop();
   for (std::size_t i = 0; i < live.answers.size(); ++i) EXPECT_EQ(replayed.answers[i], live.answers[i]) << i;
+  EXPECT_GT(live.answers.size(), live.final_answer_count()) << "no preview";
   EXPECT_FALSE(ipc::decode<ipc::StairwaysMessage>(live.answers[0])->detection.stairways.empty());
   ASSERT_GT(replayed.scans.size(), 400u);
   const std::size_t common = std::min(live.scans.size(), replayed.scans.size());

@@ -5,6 +5,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -25,8 +26,10 @@ using namespace std::chrono_literals;
 // Generous, since sanitizers make the daemon ten times slower; nothing waits for it to pass.
 constexpr auto kPatience = 200s;
 
+// Whole sweeps only.
 std::vector<std::string> quick(const std::string& scene, std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments{"--simulate=" + scene, "--set", "simulate.speed=0", "--set", "disk.period_s=6"};
+  std::vector<std::string> arguments{"--simulate=" + scene, "--set", "simulate.speed=0", "--set",
+                                     "disk.period_s=6",     "--set", "preview.every_s=0"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -79,6 +82,24 @@ TEST_F(Stairwayd, finds_the_stairway_of_the_simulated_scene) {
   EXPECT_NEAR(found.step_height, truth.step_height, 0.005);
   EXPECT_NEAR(found.step_depth, truth.step_depth, 0.008);
   EXPECT_LT((found.anchor - truth.anchor).norm(), 0.05);
+}
+
+TEST_F(Stairwayd, tells_a_stairway_before_the_turn_is_over_and_logs_that_once) {
+  Listener listener;
+  DaemonProcess daemon(quick("straight-flight", {"--set", "preview.every_s=0.5"}));
+  const auto has_final = [](const Listener& heard) { return !heard.answers.empty() && heard.answers.back().is_final; };
+  ASSERT_TRUE(listener.listen(kPatience, has_final));
+  ASSERT_GE(listener.answers.size(), 3u);
+  const ipc::StairwaysMessage &first = listener.answers.front(), &last = listener.answers.back();
+  EXPECT_FALSE(first.is_final);
+  EXPECT_EQ(first.sweep, last.sweep);
+  EXPECT_EQ(first.track_ids, last.track_ids);
+  EXPECT_LT(first.utime_us, last.utime_us - 2'000'000);
+  ASSERT_TRUE(daemon.has_said("stairway 1: ", kPatience));
+  const std::string log = daemon.output(), news = "stairway 1 comes into sight: ";
+  ASSERT_NE(log.find(news), std::string::npos) << log;
+  EXPECT_EQ(log.find(news), log.rfind(news)) << log;
+  EXPECT_LT(log.find(news), log.find("stairway 1: ")) << log;
 }
 
 TEST_F(Stairwayd, tells_what_it_measures_and_how_it_does) {
@@ -134,12 +155,12 @@ TEST_F(Stairwayd, says_why_it_found_nothing) {
 
 TEST_F(Stairwayd, once_ends_after_the_first_answer) {
   Listener listener;
-  DaemonProcess daemon(quick("straight-flight", {"--once"}));
+  DaemonProcess daemon(quick("straight-flight", {"--once", "--set", "preview.every_s=1"}));
   EXPECT_TRUE(listener.listen(kPatience, [](const Listener& heard) {
     return has_answer(heard) && !heard.healths.empty() && heard.healths.back().state == "stopped";
   }));
   EXPECT_EQ(daemon.wait(kPatience), 0);
-  EXPECT_EQ(listener.answers.size(), 1u);
+  EXPECT_EQ(std::ranges::count(listener.answers, true, &ipc::StairwaysMessage::is_final), 1);
 }
 
 TEST_F(Stairwayd, termination_is_quick_and_clean_in_the_middle_of_a_pass) {

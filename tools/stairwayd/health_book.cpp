@@ -119,7 +119,19 @@ void HealthBook::note_answer(const ipc::StairwaysMessage& answer, const ipc::Tim
   const std::lock_guard lock(mutex_);
   for (const auto& [stage, duration_ms] : timings) stages_.add(stage, duration_ms);
   result_.stairways = static_cast<int>(answer.detection.stairways.size());
-  if (result_.stairways == 0) return;
+  note_stairways(answer, now);
+}
+
+void HealthBook::note_preview(const ipc::StairwaysMessage& preview, const ipc::Timings& timings,
+                              Clock::time_point now) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [stage, duration_ms] : timings)
+    if (stage == "total") stages_.add("preview", duration_ms);
+  note_stairways(preview, now);
+}
+
+void HealthBook::note_stairways(const ipc::StairwaysMessage& answer, Clock::time_point now) {
+  if (answer.detection.stairways.empty()) return;
   result_.stairway_sweep = answer.sweep;
   last_stairway_ = now;
 }

@@ -40,6 +40,8 @@ class HealthBook {
   void note_sweep(const scan::Sweep& sweep, Clock::time_point now);
   /// The detector's answer, and how long its stages took.
   void note_answer(const ipc::StairwaysMessage& answer, const ipc::Timings& timings, Clock::time_point now);
+  /// Likewise of a part of a sweep, which counts as a stage of its own. It may show a stairway, but does not deny one.
+  void note_preview(const ipc::StairwaysMessage& preview, const ipc::Timings& timings, Clock::time_point now);
   /// A part of the work was done once.
   void note_stage(std::string_view stage, Clock::duration duration);
   /// Why messages cannot be sent; empty when they can.
@@ -73,6 +75,7 @@ class HealthBook {
   ipc::DeviceHealth device_health(Device device, const DeviceEntry& entry, Clock::time_point now,
                                   double elapsed_s) const;
   ipc::ResultHealth result_health(Clock::time_point now) const;
+  void note_stairways(const ipc::StairwaysMessage& answer, Clock::time_point now);
 
   std::mutex mutex_;
   Clock::time_point last_report_;

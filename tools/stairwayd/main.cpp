@@ -133,7 +133,7 @@ int run(const CommandLine& line, const config::Settings& settings, const daemon:
   std::atomic<bool> is_answered = false;
   const auto on_pass = [&](const daemon::Pass& pass) {
     pass_log.add(pass);
-    is_answered = is_answered || pass.is_sent;
+    is_answered = is_answered || (pass.is_sent && !pass.is_preview);
     if (line.is_once) daemon::Signals::wake();
   };
   daemon::log::info(fmt::format("stairwayd {} starts", STAIRWAY_VERSION));

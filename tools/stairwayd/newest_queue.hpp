@@ -39,6 +39,11 @@ class NewestQueue {
     return taken_.wait(lock, stop, [this] { return values_.size() < capacity_; });
   }
 
+  bool is_empty() const {
+    const std::lock_guard lock(mutex_);
+    return values_.empty();
+  }
+
   /// No more values come: the takers get those that wait, then none.
   void close() {
     {
@@ -72,7 +77,7 @@ class NewestQueue {
  private:
   const std::size_t capacity_;
   std::deque<T> values_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable_any arrived_;
   std::condition_variable_any taken_;
   bool is_closed_ = false;

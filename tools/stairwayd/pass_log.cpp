@@ -36,6 +36,26 @@ std::string describe(const std::vector<detect::Rejection>& rejected) {
 }  // namespace
 
 void PassLog::add(const Pass& pass) {
+  pass.is_preview ? add_preview(pass) : add_answer(pass);
+  const ipc::StairwaysMessage& message = pass.message;
+  const double age_s = 1e-6 * static_cast<double>(message.utime_us - message.sweep_start_utime_us);
+  log::debug(fmt::format("sweep {}{}: {} points, {} stairways; {} ms", message.sweep,
+                         pass.is_preview ? fmt::format(" after {:.1f} s", age_s) : "", pass.points,
+                         message.detection.stairways.size(), describe(pass.timings)));
+  if (!pass.is_preview && !pass.flaws.empty())
+    log::debug(fmt::format("sweep {}: {}", message.sweep, fmt::join(pass.flaws, "; ")));
+}
+
+void PassLog::add_preview(const Pass& pass) {
+  const ipc::StairwaysMessage& message = pass.message;
+  for (std::size_t i = 0; i < message.detection.stairways.size(); ++i) {
+    const std::int64_t id = message.track_ids[i];
+    if (seen_.contains(id) || !previewed_.insert(id).second) continue;
+    log::info(fmt::format("stairway {} comes into sight: {}", id, describe(message.detection.stairways[i])));
+  }
+}
+
+void PassLog::add_answer(const Pass& pass) {
   const ipc::StairwaysMessage& message = pass.message;
   const detect::Detection& detection = message.detection;
   std::set<std::int64_t> seen;
@@ -44,15 +64,14 @@ void PassLog::add(const Pass& pass) {
     if (!seen_.contains(id)) log::info(fmt::format("stairway {}: {}", id, describe(detection.stairways[i])));
     seen.insert(id);
   }
-  for (const std::int64_t id : seen_) {
+  previewed_.insert(seen_.begin(), seen_.end());
+  for (const std::int64_t id : previewed_) {
     if (!seen.contains(id)) log::info(fmt::format("stairway {} is no longer seen", id));
   }
-  const bool is_news = is_first_ || !seen_.empty();
+  const bool is_news = is_first_ || !previewed_.empty();
   if (seen.empty() && is_news)
     log::info(fmt::format("no stairway in sweep {}; {}", message.sweep, describe(detection.rejected)));
-  log::debug(fmt::format("sweep {}: {} points, {} stairways; {} ms", message.sweep, pass.points, seen.size(),
-                         describe(pass.timings)));
-  if (!pass.flaws.empty()) log::debug(fmt::format("sweep {}: {}", message.sweep, fmt::join(pass.flaws, "; ")));
+  previewed_.clear();
   seen_ = std::move(seen);
   is_first_ = false;
 }

@@ -22,7 +22,7 @@ constexpr auto kSettingsInterval = 10s;
 constexpr auto kDetectorGrace = 500ms;
 constexpr std::size_t kWaitingSweeps = 1;
 
-// Leaves a pass whose answer nobody will want; the detector itself cannot be interrupted.
+// Leaves a pass whose answer nobody will want any more; a stage of the detector cannot be interrupted.
 struct PassAbandoned {};
 
 std::int64_t utime_now_us() {
@@ -46,6 +46,7 @@ Pipeline::Pipeline(const config::Settings& settings, std::unique_ptr<Measurement
           [this](drivers::HostStamp stamp_ns) { return source_->utime_us(stamp_ns); }),
       commands_(settings),
       assembler_(scan::make_calibration(settings.mount), settings.sweep),
+      previews_(settings.preview),
       sweeps_(kWaitingSweeps),
       clouds_(make_cloud_sender()),
       next_settings_(Clock::now()),
@@ -84,10 +85,7 @@ void Pipeline::acquire(std::stop_token stop) {
       const Clock::time_point began = Clock::now();
       std::visit([this](auto& what) { take(std::move(what)); }, event);
       spent += Clock::now() - began;
-      while (auto sweep = assembler_.take_sweep()) {
-        commands_.note_sweep(*sweep, *source_);
-        hand_over(std::move(*sweep), stop);
-      }
+      for (Job& job : std::exchange(due_, {})) hand_over(std::move(job), stop);
     }
     if (spent > Clock::duration::zero()) health_.note_stage("acquisition", spent);
     progress_.note_read();
@@ -115,11 +113,16 @@ void Pipeline::take(drivers::LaserScan scan) {
   health_.note_scan(scan);
   publisher_.add(scan, assembler_.angle_track());
   assembler_.add(std::move(scan));
+  follow_sweeps();
 }
 
 void Pipeline::take(const std::vector<drivers::AngleSample>& samples) {
-  assembler_.add(samples);
-  publisher_.add(samples, assembler_.angle_track());
+  // One at a time: how far a preview reaches must not depend on how many came together.
+  for (const drivers::AngleSample& sample : samples) {
+    assembler_.add(std::span(&sample, 1));
+    publisher_.add(std::span(&sample, 1), assembler_.angle_track());
+    follow_sweeps();
+  }
   health_.note_angles(samples.size(), assembler_.angle_track());
 }
 
@@ -148,17 +151,39 @@ void Pipeline::take(const SourceTrouble& trouble) {
   health_.count_trouble(trouble);
 }
 
-void Pipeline::hand_over(scan::Sweep sweep, const std::stop_token& stop) {
-  health_.note_sweep(sweep, Clock::now());
+void Pipeline::follow_sweeps() {
+  while (auto sweep = assembler_.take_sweep()) {
+    commands_.note_sweep(*sweep, *source_);
+    health_.note_sweep(*sweep, Clock::now());
+    due_.push_back(make_job(std::move(*sweep), false));
+  }
+  const scan::Sweep* under_way = assembler_.sweep_under_way();
+  if (under_way != nullptr && may_preview() && previews_.take_due(*under_way))
+    due_.push_back(make_job(*under_way, true));
+}
+
+// What the devices measure goes on while the detector works, so it looks at the sweep when it has time for that.
+bool Pipeline::may_preview() const { return source_->waits_for_detector() || (due_.empty() && unanswered_ == 0); }
+
+Pipeline::Job Pipeline::make_job(scan::Sweep sweep, bool is_preview) {
   const std::int64_t begin_utime_us = publisher_.utime_us(sweep.begin_ns);
   const std::int64_t end_utime_us = publisher_.utime_us(sweep.end_ns);
+  return {std::move(sweep), is_preview, begin_utime_us, end_utime_us, Clock::now()};
+}
+
+void Pipeline::hand_over(Job job, const std::stop_token& stop) {
   if (source_->waits_for_detector()) {
     progress_.note_waiting(true);
     const bool has_room = sweeps_.wait_for_room(stop);
     progress_.note_waiting(false);
     if (!has_room) return;
+    job.queued = Clock::now();
   }
-  if (sweeps_.push({std::move(sweep), begin_utime_us, end_utime_us, Clock::now()})) return;
+  const bool is_preview_waiting = std::exchange(is_newest_a_preview_, job.is_preview);
+  ++unanswered_;
+  if (sweeps_.push(std::move(job))) return;
+  --unanswered_;
+  if (is_preview_waiting) return;
   health_.count("unseen-sweeps");
   log::repeated_warning("unseen sweeps", "the detector is slower than the disk; a sweep was left out");
 }
@@ -168,22 +193,39 @@ void Pipeline::detect(std::stop_token stop) {
   // It computes for seconds; the devices and the robot's controller cannot wait.
   let_others_go_first();
   while (auto job = sweeps_.pop(stop)) {
-    health_.note_stage("waiting", Clock::now() - job->queued);
+    if (!job->is_preview) health_.note_stage("waiting", Clock::now() - job->queued);
     progress_.begin_pass(Clock::now());
     try {
-      Pass pass = answer(*job, stop);
-      health_.note_answer(pass.message, pass.timings, Clock::now());
-      pass.is_sent = send(channels_.stairways, ipc::encode(pass.message));
-      if (on_pass_) on_pass_(pass);
+      tell(answer(*job, stop));
     } catch (const PassAbandoned&) {
-      break;
+      if (stop.stop_requested()) break;
     }
     progress_.end_pass();
-    send_cloud(std::move(*job), stop);
+    if (!job->is_preview) send_cloud(std::move(*job), stop);
+    --unanswered_;
   }
   if (clouds_ && !stop.stop_requested()) clouds_->finish(stop);
   has_ended_ = !stop.stop_requested();
   detection_ended_.release();
+}
+
+void Pipeline::tell(Pass pass) {
+  // An empty preview would say no more than the last message, and hide it from those who look at the newest alone.
+  const bool is_news = !pass.is_preview || !pass.message.detection.stairways.empty();
+  if (pass.is_preview) {
+    health_.note_preview(pass.message, pass.timings, Clock::now());
+    so_far_.complete(pass.message);
+  } else {
+    health_.note_answer(pass.message, pass.timings, Clock::now());
+    so_far_.forget();
+  }
+  pass.is_sent = is_news && send(channels_.stairways, ipc::encode(pass.message));
+  if (on_pass_) on_pass_(pass);
+}
+
+// Of devices that do not wait, nothing but a whole sweep comes while a pass is under way.
+bool Pipeline::is_overtaken(const Job& job) const {
+  return job.is_preview && !source_->waits_for_detector() && !sweeps_.is_empty();
 }
 
 void Pipeline::send_cloud(Job job, std::stop_token stop) {
@@ -203,7 +245,7 @@ Pass Pipeline::answer(const Job& job, std::stop_token stop) {
   }
   tools::StageTimer timer;
   const auto on_stage = [&](std::string_view stage) {
-    if (stop.stop_requested()) throw PassAbandoned{};
+    if (stop.stop_requested() || is_overtaken(job)) throw PassAbandoned{};
     timer.begin(stage);
   };
   Pass pass;
@@ -212,8 +254,10 @@ Pass Pipeline::answer(const Job& job, std::stop_token stop) {
   pass.message.utime_us = job.end_utime_us;
   pass.message.sweep_start_utime_us = job.begin_utime_us;
   pass.message.sweep = static_cast<std::int64_t>(job.sweep.number);
-  pass.message.is_final = job.sweep.statistics.covers_whole_turn();
-  pass.message.track_ids = tracker_.follow(pass.message.detection.stairways);
+  pass.message.is_final = !job.is_preview && job.sweep.statistics.covers_whole_turn();
+  const auto& stairways = pass.message.detection.stairways;
+  pass.message.track_ids = job.is_preview ? tracker_.follow_preview(stairways) : tracker_.follow(stairways);
+  pass.is_preview = job.is_preview;
   pass.points = job.sweep.cloud.points.size();
   pass.flaws = job.sweep.statistics.flaws();
   pass.timings = timer.timings();

@@ -26,15 +26,18 @@
 #include "tools/stairwayd/measurement_publisher.hpp"
 #include "tools/stairwayd/measurement_source.hpp"
 #include "tools/stairwayd/newest_queue.hpp"
+#include "tools/stairwayd/preview_schedule.hpp"
 #include "tools/stairwayd/progress_watch.hpp"
 #include "tools/stairwayd/publish.hpp"
 #include "tools/stairwayd/stairway_tracker.hpp"
+#include "tools/stairwayd/stairways_so_far.hpp"
 
 namespace stairway::daemon {
 
-/// The answer for one sweep.
+/// The answer for one sweep, or for a part of one.
 struct Pass {
   ipc::StairwaysMessage message;
+  bool is_preview = false;  ///< the sweep was still under way
   std::size_t points = 0;
   std::vector<std::string> flaws;  ///< of the sweep, for a person
   bool is_sent = false;            ///< the message went out
@@ -47,7 +50,8 @@ struct Pass {
 /// One thread reads the source, sends STAIRWAY_SCAN, STAIRWAY_ANGLES and STAIRWAY_DISK and assembles sweeps; another
 /// one finds stairways and sends STAIRWAY_STAIRWAYS for every sweep, also when there are none. At most one sweep waits
 /// for the detector; a newer one replaces it, which is counted; only a source whose time is its own is kept waiting.
-/// STAIRWAY_HEALTH and STAIRWAY_SETTINGS go out with report(). What cannot be sent is counted and lost.
+/// While the detector has nothing else to do, it looks at the sweep under way, and what that shows is sent as a
+/// preview. STAIRWAY_HEALTH and STAIRWAY_SETTINGS go out with report(). What cannot be sent is counted and lost.
 class Pipeline {
  public:
   /// Called by the detection thread after the answer has been sent.
@@ -97,6 +101,7 @@ class Pipeline {
   using Clock = std::chrono::steady_clock;
   struct Job {
     scan::Sweep sweep;
+    bool is_preview = false;
     std::int64_t begin_utime_us = 0;
     std::int64_t end_utime_us = 0;
     Clock::time_point queued;
@@ -113,9 +118,14 @@ class Pipeline {
   void take(const SourceNote& note);
   void take(RawBytes raw);
   void take(const drivers::ClockQuality& quality);
-  void hand_over(scan::Sweep sweep, const std::stop_token& stop);
+  void follow_sweeps();
+  bool may_preview() const;
+  Job make_job(scan::Sweep sweep, bool is_preview);
+  void hand_over(Job job, const std::stop_token& stop);
   void detect(std::stop_token stop);
   Pass answer(const Job& job, std::stop_token stop);
+  void tell(Pass pass);
+  bool is_overtaken(const Job& job) const;
   void send_cloud(Job job, std::stop_token stop);
   bool send(const std::string& channel, std::span<const std::uint8_t> bytes);
   bool send_settings();
@@ -130,8 +140,13 @@ class Pipeline {
   MeasurementPublisher publisher_;
   CommandDesk commands_;
   scan::SweepAssembler assembler_;
+  PreviewSchedule previews_;
+  std::vector<Job> due_;  // not handed over yet
   NewestQueue<Job> sweeps_;
+  bool is_newest_a_preview_ = false;  // of what was handed over
+  std::atomic<int> unanswered_ = 0;   // what was handed over and the detector is not done with
   StairwayTracker tracker_;
+  StairwaysSoFar so_far_;
 
   const std::unique_ptr<CloudSender> clouds_;  // null when they are not wanted
 
