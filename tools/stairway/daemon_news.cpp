@@ -95,11 +95,19 @@ void DaemonNews::take(const ipc::BusMessage& message) {
 void DaemonNews::take_answer(const ipc::StairwaysMessage& message) {
   ++answers_;
   if (!message.detection.stairways.empty()) ++stairways_;
-  status_.clear();
   if (format_ == Format::Json) return print_of(channels_.stairways, answer_json(message));
+  if (!is_news(message)) return;
+  status_.clear();
   print(heading(message) + table(message.detection));
   if (truth_) print(truth_text(*truth_, message.detection.stairways));
   flush_output();
+}
+
+bool DaemonNews::is_news(const ipc::StairwaysMessage& message) {
+  if (message.is_final) told_tracks_.clear();
+  const std::size_t told = told_tracks_.size();
+  told_tracks_.insert(message.track_ids.begin(), message.track_ids.end());
+  return message.is_final || message.detection.stairways.empty() || told_tracks_.size() > told;
 }
 
 void DaemonNews::take_health(const ipc::HealthMessage& message) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@
 namespace stairway::tools {
 
 /// Tells a person, or a program, what the messages of stairwayd say. Text: stairways on stdout, the daemon's state on
-/// stderr. JSON: both on stdout, each with the channel that it came on.
+/// stderr; of the previews of a sweep those that show one that was not told yet. JSON: both on stdout, all of them,
+/// each with the channel that it came on.
 class DaemonNews {
  public:
   /// @param truth  printed below every answer, with the differences.
@@ -32,6 +34,7 @@ class DaemonNews {
 
  private:
   void take_answer(const ipc::StairwaysMessage& message);
+  bool is_news(const ipc::StairwaysMessage& message);
   void take_health(const ipc::HealthMessage& message);
   void count_damage(std::string_view channel, ipc::MessageFault fault);
   void tell(const std::string& event);
@@ -41,6 +44,7 @@ class DaemonNews {
   std::optional<std::vector<detect::Stairway>> truth_;
   StatusLine status_;
   std::optional<ipc::HealthMessage> health_;
+  std::set<std::int64_t> told_tracks_;  // by the last answer and the previews since then
   std::int64_t answers_ = 0;
   std::int64_t stairways_ = 0;
   std::int64_t damaged_ = 0;

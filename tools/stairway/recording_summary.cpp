@@ -95,7 +95,7 @@ class Summariser {
     last_settings_ = message.toml;
   }
   void look(const ipc::StairwaysMessage& message) {
-    ++summary.answers;
+    ++(message.is_final ? summary.answers : summary.previews);
     tracks_.insert(message.track_ids.begin(), message.track_ids.end());
   }
 
@@ -139,8 +139,8 @@ std::string recording_text(const std::string& name, const RecordingSummary& summ
                         1e-6 * static_cast<double>(counts.bytes), counts.longest_gap_s);
     if (counts.undecodable > 0) text += fmt::format("  {:>34} cannot be decoded\n", counts.undecodable);
   }
-  text += fmt::format("  {:.2f} turns of the disk, {} answers, {} stairways\n", summary.turns, summary.answers,
-                      summary.stairways);
+  text += fmt::format("  {:.2f} turns of the disk, {} answers and {} previews, {} stairways\n", summary.turns,
+                      summary.answers, summary.previews, summary.stairways);
   if (summary.lost_scans > 0) text += fmt::format("  {} scans were lost\n", summary.lost_scans);
   text += summary.versions.empty() ? "  it does not tell its settings\n"
                                    : fmt::format("  made by stairwayd {}\n", fmt::join(summary.versions, ", then "));
@@ -168,6 +168,7 @@ std::string recording_json(const std::string& name, const RecordingSummary& summ
                     {"channels", std::move(channels)},
                     {"turns", summary.turns},
                     {"answers", summary.answers},
+                    {"previews", summary.previews},
                     {"stairways", summary.stairways},
                     {"lost_scans", summary.lost_scans},
                     {"versions", summary.versions},

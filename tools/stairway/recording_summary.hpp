@@ -31,7 +31,8 @@ struct RecordingSummary {
   std::map<std::string, ChannelSummary> channels;
   std::uint64_t lost_scans = 0;       ///< missing between others by their sequence numbers
   double turns = 0.0;                 ///< of the disk, while its angle was known
-  std::uint64_t answers = 0;          ///< stairways_t messages
+  std::uint64_t answers = 0;          ///< stairways_t messages about whole turns
+  std::uint64_t previews = 0;         ///< likewise about parts of one
   std::uint64_t stairways = 0;        ///< different ones, by their track ids
   std::vector<std::string> versions;  ///< of the programs that made it, in order
   std::uint64_t settings_changes = 0;

@@ -112,18 +112,18 @@ std::string csv_lines(const ipc::AnglesMessage& message) {
 
 std::string stairways_csv_heading() {
   return "utime_us,sweep,track_id,kind,direction,steps,step_height_m,step_depth_m,width_m,pitch_rad,heading_rad,"
-         "turn_per_step_rad,anchor_x_m,anchor_y_m,anchor_z_m,anchor_side,railing_left,railing_right,score\n";
+         "turn_per_step_rad,anchor_x_m,anchor_y_m,anchor_z_m,anchor_side,railing_left,railing_right,score,is_final\n";
 }
 
 std::string csv_lines(const ipc::StairwaysMessage& message) {
   std::string out;
   for (std::size_t i = 0; i < message.detection.stairways.size(); ++i) {
     const detect::Stairway& s = message.detection.stairways[i];
-    out +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", message.utime_us, message.sweep,
-                    message.track_ids[i], to_string(s.kind), to_string(s.direction), s.nosings.size(), s.step_height,
-                    s.step_depth, s.width, s.pitch(), s.heading, s.turn_per_step, s.anchor.x(), s.anchor.y(),
-                    s.anchor.z(), to_string(s.anchor_side), s.railing_left ? 1 : 0, s.railing_right ? 1 : 0, s.score);
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", message.utime_us, message.sweep,
+                       message.track_ids[i], to_string(s.kind), to_string(s.direction), s.nosings.size(), s.step_height,
+                       s.step_depth, s.width, s.pitch(), s.heading, s.turn_per_step, s.anchor.x(), s.anchor.y(),
+                       s.anchor.z(), to_string(s.anchor_side), s.railing_left ? 1 : 0, s.railing_right ? 1 : 0, s.score,
+                       message.is_final ? 1 : 0);
   }
   return out;
 }
