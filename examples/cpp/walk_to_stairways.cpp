@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Listens to stairwayd and says how a robot would walk to each stairway. A program to copy from.
-// Usage: walk_to_stairways [COUNT]; it ends after COUNT answers, without one never. The bus is that of the environment
-// variable LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0.
+// Usage: walk_to_stairways [COUNT]; it ends after COUNT whole sweeps, without one never. The bus is that of the
+// environment variable LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -63,12 +63,15 @@ void plan(const stairway::stairway_t& stairs) {
 class Walker {
  public:
   void on_stairways(const lcm::ReceiveBuffer*, const std::string&, const stairway::stairways_t* message) {
-    ++answers_;
     const auto sweep = static_cast<long long>(message->sweep);
     if (age_s(message->utime) > kMaxAge_s) {
       std::printf("sweep %lld is too old to act on\n", sweep);
     } else if (!message->is_final) {
-      std::printf("sweep %lld is a preview; wait for the whole one\n", sweep);
+      // Enough to walk towards them; the whole sweep may show more steps, and more of their width.
+      for (const stairway::stairway_t& stairs : message->stairways) {
+        std::printf("so far: ");
+        describe(stairs);
+      }
     } else if (message->stairways.empty()) {
       std::printf("sweep %lld shows no stairway: %s\n", sweep,
                   message->rejected.empty() ? "no candidate" : message->rejected.front().reason.c_str());
@@ -82,6 +85,7 @@ class Walker {
         }
       }
     }
+    answers_ += message->is_final ? 1 : 0;
     std::fflush(stdout);
   }
 

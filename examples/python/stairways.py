@@ -90,7 +90,8 @@ def answer(message):
     if time.time() - 1e-6 * message.utime > MAX_AGE_S:
         return [f"sweep {message.sweep} is too old to act on"]
     if not message.is_final:
-        return [f"sweep {message.sweep} is a preview; wait for the whole one"]
+        # Enough to walk towards them; the whole sweep may show more steps, and more of their width.
+        return ["so far: " + describe(stairs) for stairs in message.stairways]
     if not message.stairways:
         reasons = ", ".join(rejection.reason for rejection in message.rejected) or "no candidate"
         return [f"sweep {message.sweep} shows no stairway: {reasons}"]
@@ -106,7 +107,7 @@ def main():
     parser = argparse.ArgumentParser(description="Says how a robot would walk to the stairways that stairwayd finds.")
     parser.add_argument("--url", default=os.environ.get("LCM_DEFAULT_URL", DEFAULT_URL), help="as lcm.url of stairwayd")
     parser.add_argument("--prefix", default="STAIRWAY_", help="as lcm.channel_prefix of stairwayd")
-    parser.add_argument("--count", type=int, default=0, metavar="N", help="end after N answers")
+    parser.add_argument("--count", type=int, default=0, metavar="N", help="end after N whole sweeps")
     arguments = parser.parse_args()
     answers = 0
     for channel, data in Listener(arguments.url):
@@ -117,7 +118,7 @@ def main():
         except ValueError:
             sys.exit(f"{channel} has another type here: install the stairway package of the stairwayd that sends")
         print(*answer(message), sep="\n", flush=True)
-        answers += 1
+        answers += message.is_final
         if answers == arguments.count:
             return
 
