@@ -28,7 +28,7 @@ std::vector<double> previews(PreviewSchedule& schedule, std::uint64_t number = 0
   for (double at_s = 0.0; at_s < 35.0; at_s += step_s) {
     scan::Sweep sweep = sweep_after(at_s);
     sweep.number = number;
-    if (schedule.take_due(sweep)) when_s.push_back(at_s);
+    if (schedule.take_due(sweep, 0)) when_s.push_back(at_s);
   }
   return when_s;
 }
@@ -49,10 +49,19 @@ TEST(PreviewSchedule, too_few_points_or_a_disk_that_stands_are_no_news) {
   PreviewSchedule schedule({.every_s = 1.0});
   scan::Sweep sweep = sweep_after(2.0);
   sweep.cloud.points.resize(19'999);
-  EXPECT_FALSE(schedule.take_due(sweep));
-  EXPECT_FALSE(schedule.take_due(sweep_after(10.0, 0.0)));
-  EXPECT_TRUE(schedule.take_due(sweep_after(10.0)));
-  EXPECT_FALSE(schedule.take_due(sweep_after(20.0, 0.5 * kTurn_rad / 35.0)));
+  EXPECT_FALSE(schedule.take_due(sweep, 0));
+  EXPECT_FALSE(schedule.take_due(sweep_after(10.0, 0.0), 0));
+  EXPECT_TRUE(schedule.take_due(sweep_after(10.0), 0));
+  EXPECT_FALSE(schedule.take_due(sweep_after(20.0, 0.5 * kTurn_rad / 35.0), 0));
+}
+
+TEST(PreviewSchedule, run_that_is_played_is_looked_at_where_it_was) {
+  PreviewSchedule schedule({.every_s = 1.0}, std::vector<std::int64_t>{5'000'000, 9'000'000});
+  EXPECT_FALSE(schedule.take_due(sweep_after(4.0), 4'000'000));
+  EXPECT_TRUE(schedule.take_due(sweep_after(5.0), 5'000'001)) << "the clocks are not read to the microsecond";
+  EXPECT_FALSE(schedule.take_due(sweep_after(5.0), 5'000'001)) << "once";
+  EXPECT_FALSE(schedule.take_due(sweep_after(8.975), 8'975'000));
+  EXPECT_TRUE(schedule.take_due(sweep_after(9.0), 9'000'000));
 }
 
 TEST(PreviewSchedule, zero_switches_them_off) {

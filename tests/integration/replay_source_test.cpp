@@ -13,6 +13,7 @@
 #include "ipc/recording/recorder.hpp"
 #include "tests/tools/recording_fixture.hpp"
 #include "tests/tools/temporary_folder.hpp"
+#include "tools/recording/recorded_previews.hpp"
 #include "tools/recording/recorded_settings.hpp"
 #include "tools/stairwayd/pipeline.hpp"
 #include "tools/stairwayd/simulated_source.hpp"
@@ -61,26 +62,28 @@ class Sent {
   std::size_t final_answers_ = 0;
 };
 
-std::unique_ptr<ReplaySource> open_replay(const std::filesystem::path& path, double speed = 0.0) {
+std::unique_ptr<ReplaySource> open_replay(const std::filesystem::path& path, double speed = 0.0,
+                                          std::optional<std::vector<std::int64_t>> previews = {}) {
   const auto facts = tools::examine_recording(path);
   if (!facts) {
     ADD_FAILURE() << facts.error().text;
     return nullptr;
   }
-  return ReplaySource::open(path, *facts, speed).value();
+  return ReplaySource::open(path, *facts, speed, std::move(previews)).value();
 }
 
 // A turn in six seconds and coarse voxels, so that the passes are quick.
-config::Settings quick_settings() {
+config::Settings quick_settings(double speed = 0.0) {
   config::Settings settings;
-  settings.simulate.speed = 0.0;
+  settings.simulate.speed = speed;
   settings.disk.period_s = 6.0;
   settings.detector.voxel_m = 0.0301;
   return settings;
 }
 
 // Runs the simulated robot until it has given this many final answers, and records it.
-std::filesystem::path record_run(const TemporaryFolder& folder, std::size_t answers, Sent& sent) {
+std::filesystem::path record_run(const TemporaryFolder& folder, std::size_t answers, Sent& sent,
+                                 const config::Settings& settings = quick_settings()) {
   ipc::RecordOptions options;
   options.mode = ipc::RecordMode::Continuous;
   options.folder = folder.path();
@@ -91,7 +94,6 @@ std::filesystem::path record_run(const TemporaryFolder& folder, std::size_t answ
     recorder.add(channel, bytes, 1'700'000'000'000'000);
     return true;
   };
-  const config::Settings settings = quick_settings();
   Pipeline pipeline(settings, std::make_unique<SimulatedSource>(settings, 1'700'000'000'000'000), publish);
   pipeline.report();
   EXPECT_TRUE(comes_true([&] { return sent.final_answer_count() >= answers; }));
@@ -126,6 +128,27 @@ TEST(Replay, gives_the_answers_and_scans_of_the_run_to_the_last_byte) {
   EXPECT_GE(common + 20, live.scans.size());
   EXPECT_TRUE(
       std::equal(live.scans.begin(), live.scans.begin() + static_cast<std::ptrdiff_t>(common), replayed.scans.begin()));
+}
+
+TEST(Replay, has_the_previews_of_a_run_that_looked_when_it_had_time) {
+  const TemporaryFolder folder;
+  Sent live, replayed;
+  config::Settings settings = quick_settings(4.0);
+  const auto file = record_run(folder, 1, live, settings);
+  ASSERT_GT(live.answers.size(), 1u) << "no preview";
+  const auto previews = tools::recorded_previews(file, "STAIRWAY_");
+  ASSERT_TRUE(previews);
+  EXPECT_EQ(previews->size(), live.answers.size() - 1);
+  // At other times if it were to decide by itself.
+  settings.preview.every_s = 0.37;
+  const auto publish = [&](const std::string& channel, std::span<const std::uint8_t> bytes) {
+    replayed.add(channel, bytes);
+    return true;
+  };
+  Pipeline pipeline(settings, open_replay(file, 0.0, previews), publish);
+  EXPECT_TRUE(comes_true([&] { return replayed.answer_count() >= live.answers.size(); }));
+  pipeline.stop();
+  for (std::size_t i = 0; i < live.answers.size(); ++i) EXPECT_EQ(replayed.answers[i], live.answers[i]) << i;
 }
 
 TEST(Replay, answers_every_sweep_and_then_ends) {

@@ -23,6 +23,7 @@
 #include "ipc/message_codec.hpp"
 #include "ipc/recording/recorder.hpp"
 #include "tools/recording/recorded_measurements.hpp"
+#include "tools/recording/recorded_previews.hpp"
 #include "tools/recording/recorded_settings.hpp"
 #include "tools/sim/scene_file.hpp"
 #include "tools/stairwayd/bus_listener.hpp"
@@ -194,6 +195,15 @@ tl::expected<tools::RecordingFacts, ipc::LogError> prepare_replay(CommandLine& l
   return facts;
 }
 
+/// Those of the run, unless the settings want others than it did.
+std::optional<std::vector<std::int64_t>> previews_of(const tools::RecordingFacts& facts, const std::string& path,
+                                                     const config::Settings& settings) {
+  const std::string toml = facts.settings ? facts.settings->toml : "";
+  const auto recorded = config::load_settings({{}, tools::recorded_settings(toml).assignments});
+  if (!recorded || recorded->settings.preview.every_s != settings.preview.every_s) return std::nullopt;
+  return tools::recorded_previews(path, facts.channel_prefix);
+}
+
 /// Of the kinds that need no check of their own.
 std::unique_ptr<daemon::MeasurementSource> make_source(const config::Settings& settings) {
   if (settings.source.kind == config::SourceKind::Lcm)
@@ -218,7 +228,8 @@ int run(CommandLine line) {
   const config::Settings& settings = loaded->settings;
   std::unique_ptr<daemon::MeasurementSource> source;
   if (recording) {
-    auto replay = daemon::ReplaySource::open(line.replay, *recording, settings.replay.speed);
+    auto replay = daemon::ReplaySource::open(line.replay, *recording, settings.replay.speed,
+                                             previews_of(*recording, line.replay, settings));
     if (!replay) return fail(kFailure, replay.error().text);
     source = std::move(*replay);
   }

@@ -102,6 +102,10 @@ class MeasurementSource {
   /// their sweeps the detector gets the newest.
   virtual bool waits_for_detector() const { return false; }
 
+  /// How far sweeps under way had got when the run that is played previewed them, in microseconds since the epoch, in
+  /// order; empty where the settings say when.
+  virtual std::optional<std::vector<std::int64_t>> previews() const { return std::nullopt; }
+
   /// Whether nothing will come any more.
   virtual bool has_ended() const { return false; }
 };

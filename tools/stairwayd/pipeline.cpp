@@ -46,7 +46,7 @@ Pipeline::Pipeline(const config::Settings& settings, std::unique_ptr<Measurement
           [this](drivers::HostStamp stamp_ns) { return source_->utime_us(stamp_ns); }),
       commands_(settings),
       assembler_(scan::make_calibration(settings.mount), settings.sweep),
-      previews_(settings.preview),
+      previews_(settings.preview, source_->previews()),
       sweeps_(kWaitingSweeps),
       clouds_(make_cloud_sender()),
       next_settings_(Clock::now()),
@@ -158,7 +158,8 @@ void Pipeline::follow_sweeps() {
     due_.push_back(make_job(std::move(*sweep), false));
   }
   const scan::Sweep* under_way = assembler_.sweep_under_way();
-  if (under_way != nullptr && may_preview() && previews_.take_due(*under_way))
+  if (under_way == nullptr || !may_preview()) return;
+  if (previews_.take_due(*under_way, publisher_.utime_us(under_way->end_ns)))
     due_.push_back(make_job(*under_way, true));
 }
 

@@ -18,16 +18,18 @@ constexpr std::chrono::microseconds kLongestPause = 10s;
 
 }  // namespace
 
-tl::expected<std::unique_ptr<ReplaySource>, ipc::LogError> ReplaySource::open(const std::filesystem::path& path,
-                                                                              const tools::RecordingFacts& facts,
-                                                                              double speed) {
+tl::expected<std::unique_ptr<ReplaySource>, ipc::LogError> ReplaySource::open(
+    const std::filesystem::path& path, const tools::RecordingFacts& facts, double speed,
+    std::optional<std::vector<std::int64_t>> previews) {
   auto recording = tools::RecordedMeasurements::open(path, facts);
   if (!recording) return tl::unexpected(recording.error());
-  return std::unique_ptr<ReplaySource>(new ReplaySource(path.string(), std::move(*recording), speed));
+  return std::unique_ptr<ReplaySource>(
+      new ReplaySource(path.string(), std::move(*recording), speed, std::move(previews)));
 }
 
-ReplaySource::ReplaySource(std::string name, tools::RecordedMeasurements recording, double speed)
-    : name_(std::move(name)), recording_(std::move(recording)), speed_(speed) {}
+ReplaySource::ReplaySource(std::string name, tools::RecordedMeasurements recording, double speed,
+                           std::optional<std::vector<std::int64_t>> previews)
+    : name_(std::move(name)), recording_(std::move(recording)), speed_(speed), previews_(std::move(previews)) {}
 
 std::vector<SourceEvent> ReplaySource::read(std::chrono::milliseconds timeout) {
   std::vector<SourceEvent> events;
