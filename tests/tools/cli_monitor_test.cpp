@@ -104,6 +104,27 @@ TEST(MonitorVerb, prints_every_answer_as_a_table_with_the_truth) {
     EXPECT_NE(outcome.out.find(text), std::string::npos) << outcome.out;
 }
 
+TEST(MonitorVerb, line_after_line_a_preview_is_printed_when_it_shows_something_new) {
+  RecordedBus bus;
+  ipc::StairwaysMessage message = ipc::test::sample_stairways();
+  message.track_ids = {1, 2};
+  for (int i = 0; i < 3; ++i) bus.send(kChannels.stairways, encode(message));
+  message.track_ids = {1, 3};
+  bus.send(kChannels.stairways, encode(message));
+  message.is_final = true;
+  bus.send(kChannels.stairways, encode(message));
+  message.is_final = false;
+  bus.send(kChannels.stairways, encode(message));
+  const std::string out = bus.monitor({"--lines"}).out;
+  const auto count = [&](const std::string& text) {
+    int number = 0;
+    for (std::size_t at = out.find(text); at != std::string::npos; at = out.find(text, at + 1)) ++number;
+    return number;
+  };
+  EXPECT_EQ(count("sweep 7 (preview): 2 stairways"), 2) << out;
+  EXPECT_EQ(count("sweep 7: 2 stairways"), 1) << out;
+}
+
 TEST(MonitorVerb, fills_a_terminal_and_leaves_it_as_it_was) {
   RecordedBus bus;
   bus.send(kChannels.health, encode(ipc::test::kHealth));

@@ -73,6 +73,7 @@ TEST_F(RecordingVerbs, info_counts_what_is_in_it) {
   EXPECT_NEAR(info["duration"], 1.1, 0.05);
   EXPECT_NEAR(info["turns"], 45.0 / 40.0, 1e-3);
   EXPECT_EQ(info["answers"], 1);
+  EXPECT_EQ(info["previews"], 0);
   EXPECT_EQ(info["stairways"], 1);
   EXPECT_EQ(info["lost_scans"], 0);
   EXPECT_EQ(info["versions"], json::array({"1.2.3"}));
