@@ -51,6 +51,7 @@ void News::take_health(const ipc::HealthMessage& message) {
 }
 
 void News::take_answer(const ipc::StairwaysMessage& message) {
+  if (!message.is_final) return;
   heard_.answer = message;
   ++heard_.answers;
 }

@@ -19,11 +19,11 @@ namespace stairway::bench {
 
 /// What the daemon has sent over LCM so far.
 struct Heard {
-  std::optional<ipc::HealthMessage> health;  ///< the newest, as all of these
-  std::optional<ipc::StairwaysMessage> answer;
+  std::optional<ipc::HealthMessage> health;     ///< the newest, as all of these
+  std::optional<ipc::StairwaysMessage> answer;  ///< to a whole turn
   std::optional<ipc::DiskMessage> disk;
   std::int64_t healths = 0;
-  std::int64_t answers = 0;
+  std::int64_t answers = 0;  ///< likewise
   std::int64_t scans = 0;
   std::int64_t missing_scans = 0;  ///< gaps in their numbers
   std::int64_t last_sequence = -1;
