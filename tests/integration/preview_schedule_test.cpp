@@ -40,9 +40,14 @@ TEST(PreviewSchedule, looks_often_until_everything_was_seen_once_and_not_shortly
   EXPECT_EQ(previews(schedule, 1), wanted) << "every sweep anew";
 }
 
-TEST(PreviewSchedule, late_question_is_answered_late_and_counts_from_there) {
+TEST(PreviewSchedule, late_question_is_answered_late_and_moves_none_of_the_others) {
   PreviewSchedule schedule({.every_s = 2.5});
-  EXPECT_EQ(previews(schedule, 0, 4.0), (std::vector{4.0, 8.0, 12.0, 16.0, 20.0}));
+  EXPECT_FALSE(schedule.take_due(sweep_after(2.4), 0));
+  EXPECT_TRUE(schedule.take_due(sweep_after(4.0), 0));
+  EXPECT_FALSE(schedule.take_due(sweep_after(4.9), 0));
+  EXPECT_TRUE(schedule.take_due(sweep_after(5.0), 0));
+  EXPECT_TRUE(schedule.take_due(sweep_after(10.2), 0));
+  EXPECT_FALSE(schedule.take_due(sweep_after(12.4), 0));
 }
 
 TEST(PreviewSchedule, too_few_points_or_a_disk_that_stands_are_no_news) {

@@ -27,13 +27,15 @@ bool PreviewSchedule::take_due(const scan::Sweep& so_far, std::int64_t end_utime
   if (every_ns_ == 0) return false;
   if (sweep_ != so_far.number) {
     sweep_ = so_far.number;
-    last_ns_ = so_far.begin_ns;
+    last_ns_ = planned_ns_ = so_far.begin_ns;
     last_angle_rad_ = 0.0;
   }
   // The first sweep's begin moves until the disk's angle is known.
-  last_ns_ = std::max(last_ns_, so_far.begin_ns);
+  planned_ns_ = std::max(planned_ns_, so_far.begin_ns);
   if (so_far.end_ns == last_ns_ || !(recorded_us_ ? was_recorded(end_utime_us) : is_due(so_far))) return false;
   last_ns_ = so_far.end_ns;
+  // Scans end a little after the time that was meant, which must not add up.
+  planned_ns_ = so_far.end_ns - (so_far.end_ns - so_far.begin_ns) % every_ns_;
   last_angle_rad_ = so_far.statistics.covered_angle_rad;
   return true;
 }
@@ -45,7 +47,7 @@ bool PreviewSchedule::was_recorded(std::int64_t end_utime_us) const {
 
 bool PreviewSchedule::is_due(const scan::Sweep& so_far) const {
   const std::int64_t pause_ns = last_angle_rad_ < kFirstLook_rad ? every_ns_ : kSecondLookPause * every_ns_;
-  if (so_far.end_ns - last_ns_ < pause_ns || so_far.cloud.points.size() < kFewestPoints) return false;
+  if (so_far.end_ns - planned_ns_ < pause_ns || so_far.cloud.points.size() < kFewestPoints) return false;
   const double angle_rad = so_far.statistics.covered_angle_rad;
   return angle_rad >= last_angle_rad_ + kLeastGrowth_rad && angle_rad <= kLargestPart_rad;
 }

@@ -26,7 +26,7 @@ class PreviewSchedule {
                            std::optional<std::vector<std::int64_t>> recorded_us = std::nullopt);
 
   /// Whether it is time for a preview, which is then taken for made. Call it as the sweep grows: a preview that was due
-  /// while nobody asked is due when somebody does.
+  /// while nobody asked is due when somebody does, and those after it stay where they were.
   /// @param end_utime_us  the instant of its last beam.
   bool take_due(const scan::Sweep& so_far, std::int64_t end_utime_us);
 
@@ -37,7 +37,8 @@ class PreviewSchedule {
   const drivers::HostStamp every_ns_;
   const std::optional<std::vector<std::int64_t>> recorded_us_;
   std::optional<std::uint64_t> sweep_;  // that was asked about last
-  drivers::HostStamp last_ns_ = 0;      // end of its newest preview
+  drivers::HostStamp last_ns_ = 0;      // end of its newest preview,
+  drivers::HostStamp planned_ns_ = 0;   // and where that was meant to be
   double last_angle_rad_ = 0.0;         // covered by it
 };
 
