@@ -11,8 +11,8 @@ namespace {
 constexpr const char* kFooter =
     "Settings: the defaults, then the file, then *.toml in the folder conf.d beside it in their order, then --set.\n"
     "Without --config the file is /etc/stairwayd/stairwayd.toml if it exists. SIGHUP reads them again.\n\n"
-    "A recording is replayed with its own mount, sweep, detector and previews, or with --config's; --set changes either.\n"
-    "The daemon ends with it. SIGUSR2 writes a snapshot of the last sweeps (record.mode = \"snapshot\").\n\n"
+    "A recording is replayed with its own mount, sweep, detector and previews, or with --config's; --set changes\n"
+    "either. The daemon ends with it. SIGUSR2 writes a snapshot of the last sweeps (record.mode = \"snapshot\").\n\n"
     "The source hardware is the scanner (USB), the disk motor (CAN) and the encoder (GPIO) that the settings name; it\n"
     "waits for those that are missing, and stairway doctor says what is wrong with them. The source lcm takes the\n"
     "scans and disk angles of another process, of `stairway replay` or of lcm-logplayer (source.lcm_url).\n\n"

@@ -54,7 +54,7 @@ struct Pass {
 /// preview. STAIRWAY_HEALTH and STAIRWAY_SETTINGS go out with report(). What cannot be sent is counted and lost.
 class Pipeline {
  public:
-  /// Called by the detection thread after the answer has been sent.
+  /// Called by the detection thread after every pass, when its answer has been sent or was not worth it.
   using PassListener = std::function<void(const Pass&)>;
 
   /// Starts at once.
