@@ -37,9 +37,10 @@ double distance_m(const std::optional<Stairway>& before, const Stairway& now, bo
   if (!before || !is_same_sort(*before, now)) return kFarAway_m;
   const Nosing one = entry(*before), other = entry(now);
   const double middles_m = (one.middle() - other.middle()).norm();
-  const double edges_m =
-      may_be_parts ? std::min(distance_m(one.middle(), other), distance_m(other.middle(), one)) : middles_m;
-  return edges_m < kSamePlace_m ? middles_m : kFarAway_m;
+  if (middles_m < kSamePlace_m) return middles_m;
+  const double edges_m = std::min(distance_m(one.middle(), other), distance_m(other.middle(), one));
+  if (may_be_parts && edges_m < kSamePlace_m) return middles_m;
+  return kFarAway_m;
 }
 
 struct Pair {
