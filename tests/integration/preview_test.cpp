@@ -43,12 +43,13 @@ struct Course {
   }
 };
 
-/// A turn in six seconds.
+/// A turn in six seconds, and coarse voxels, so that the passes are quick.
 config::Settings quick_settings(const std::string& scene) {
   config::Settings settings;
   settings.simulate.scene = scene;
   settings.simulate.speed = 0.0;
   settings.disk.period_s = 6.0;
+  settings.detector.voxel_m = 0.03;
   settings.preview.every_s = 0.5;
   return settings;
 }
