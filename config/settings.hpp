@@ -50,7 +50,7 @@ struct SimulationOptions {
 
 /// Answers while the disk still turns.
 struct PreviewOptions {
-  double every_s = 1.0;  ///< of a sweep's own time between two of them [s], 0..600; 0: none
+  double every_s = 1.5;  ///< of a sweep's own time between two of them [s], 0..600; 0: none
 };
 
 /// Where the daemon's measurements come from.
