@@ -8,13 +8,16 @@
 #include <map>
 #include <vector>
 
+#include "detector/side_surface.hpp"
 #include "detector/statistics.hpp"
 
 namespace stairway::detect {
 namespace {
 
 constexpr double kBeyond_m = 0.6;
-constexpr double kEndFloor_m = 0.004;  // what an end may be off by for reasons its scatter does not show
+// What an end may be off by for reasons its scatter does not show.
+constexpr double kEndFloor_m = 0.004;
+constexpr double kSurfaceFloor_m = 0.001;
 
 /// A line of sight that crosses the flight's face near an end; `out_m` grows outwards.
 struct Crossing {
@@ -35,21 +38,24 @@ class EndSearch {
         spot_(spot),
         reach_m_(reach_m) {}
 
-  void add(double v, double spread_m, double farther_m, int step, double stopped_v) {
+  void add(double v, double spread_m, double farther_m, int step, double ended_v) {
     Crossing c{.out_m = outward_ * v, .spread_m = spread_m, .farther_m = farther_m, .share = 1.0, .step = step};
     if (c.out_m < middle_m_ || c.out_m > about_m_ + kBeyond_m) return;
+    sights_.push_back({.crossing_m = c.out_m, .ended_m = outward_ * ended_v, .farther_m = farther_m});
     if (farther_m > -kStoppedBefore * reach_m_) {
       crossings_.push_back(c);
     } else {
       // What stands in the way; it counts once it is known to stand beyond the end.
       c.share = 0.0;
-      c.farther_m = outward_ * stopped_v;
+      c.farther_m = outward_ * ended_v;
       stopped_.push_back(c);
     }
   }
 
   std::optional<Estimate> end() {
     if (crossings_.size() < kFewest) return std::nullopt;
+    if (const std::optional<Estimate> surface = find_side_surface(sights_, about_m_, reach_m_))
+      return Estimate{outward_ * surface->value, std::hypot(surface->sigma, kSurfaceFloor_m)};
     for (Crossing& c : crossings_) c.share = c.farther_m < reach_m_ ? 1.0 : 0.0;
     std::optional<double> place = best_cut(crossings_);
     if (!place) return std::nullopt;
@@ -141,6 +147,7 @@ class EndSearch {
   double reach_m_;  // a beam ended on the face when it went no farther beyond it than this
   std::vector<Crossing> crossings_;
   std::vector<Crossing> stopped_;
+  std::vector<SideSight> sights_;
 };
 
 }  // namespace
