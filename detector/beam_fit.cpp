@@ -22,6 +22,7 @@ constexpr std::array kKernels_sigmas{7.0, 5.0};
 constexpr std::size_t kFewestBeams = 100;
 constexpr double kLittle = 0.3;  // of chi^2: where spots meet edges the cost is rougher than that
 constexpr double kReach = 1e-4;  // of derivatives, in units of kFlightScale
+constexpr int kMostPasses = 1;   // over uneven steps
 constexpr int kFewOf = 4;        // of so many beams one makes the first fit
 
 std::vector<double> finite_ranges(const Eigen::VectorXd& rows) {
@@ -92,7 +93,8 @@ class BeamFitter {
     const double inflation = std::max(1.0, fit.misfit);
     for (const double kernel : kKernels_sigmas) fit_steps(kernel);
     fit.offsets = offsets(inflation);
-    fit.sigmas = sigmas_with_uneven_steps(inflation * sigmas_, fit.offsets);
+    fit.even_sigmas = as_fit_sigmas(inflation * sigmas_);
+    fit.sigmas = sigmas_with_uneven_steps(fit.even_sigmas, fit.offsets);
     return fit;
   }
 
@@ -187,17 +189,21 @@ class BeamFitter {
     step_sigmas_ = normal.sigmas();
   }
 
+  static FitSigmas as_fit_sigmas(const FlightUnknowns& sigmas) {
+    return {.height_m = sigmas[kRise], .depth_m = sigmas[kDepth], .heading_rad = sigmas[kHeading]};
+  }
+
   // Steps lie where they do not only by chance of the beams: what their offsets scatter by beyond that counts once for
   // every step, however many beams it shows.
-  FitSigmas sigmas_with_uneven_steps(const FlightUnknowns& sigmas, const std::vector<StepOffset>& offsets) const {
+  FitSigmas sigmas_with_uneven_steps(const FitSigmas& even, const std::vector<StepOffset>& offsets) const {
     const double up_m = unevenness(offsets, &StepOffset::up);
     const double ahead_m = unevenness(offsets, &StepOffset::ahead);
     const auto n = static_cast<double>(offsets.size());
     const double slope = std::sqrt(12.0 / std::max(6.0, n * (n * n - 1.0)));  // of a line through n evenly spaced
     const double across = std::sqrt(12.0 / n) / start_.sides.length();
-    return {.height_m = std::hypot(sigmas[kRise], slope * up_m),
-            .depth_m = std::hypot(sigmas[kDepth], slope * ahead_m),
-            .heading_rad = std::hypot(sigmas[kHeading], across * ahead_m)};
+    return {.height_m = std::hypot(even.height_m, slope * up_m),
+            .depth_m = std::hypot(even.depth_m, slope * ahead_m),
+            .heading_rad = std::hypot(even.heading_rad, across * ahead_m)};
   }
 
   // What the place of an edge in the spot may be off by from step to step.
@@ -247,6 +253,24 @@ class BeamFitter {
 
 }  // namespace
 
+namespace {
+
+std::ptrdiff_t measured_steps(const BeamFit& fit) {
+  return std::count_if(fit.offsets.begin(), fit.offsets.end(),
+                       [](const StepOffset& offset) { return offset.up.has_value(); });
+}
+
+// More beams explained, or as many more exactly; a fit beside the steps explains the few beams that it takes for
+// theirs.
+bool is_clearly_better(const BeamFit& fit, const BeamFit& other) {
+  constexpr double kClearly = 1.04;
+  constexpr std::ptrdiff_t kManyTimes = 2;
+  return fit.explained / fit.misfit > kClearly * other.explained / other.misfit ||
+         measured_steps(fit) > kManyTimes * measured_steps(other);
+}
+
+}  // namespace
+
 std::string BeamFitOptions::problem() const {
   if (!(pulse_separation_m > 0.0)) return "pulse_separation_m must be greater than 0";
   if (edge_beams < 1 || plane_beams < 1) return "edge_beams and plane_beams must be at least 1";
@@ -266,12 +290,18 @@ std::optional<BeamFit> fit_beams(const StairCorridor& corridor, const BeamFitSta
     if (is_regular) as.offsets.clear();
     if (const std::optional<StairModel> nearer = BeamFitter(corridor, as, open_risers, few).run_roughly())
       as.model = *nearer;
-    return BeamFitter(corridor, as, open_risers, options).run();
+    std::optional<BeamFit> fit = BeamFitter(corridor, as, open_risers, options).run();
+    // Which beams see an uneven step is told by where that step lies.
+    for (int pass = 0; pass < kMostPasses && fit && are_irregular(fit->offsets); ++pass) {
+      as.model = fit->model;
+      as.offsets = fit->offsets;
+      if (std::optional<BeamFit> again = BeamFitter(corridor, as, open_risers, options).run()) fit = std::move(again);
+    }
+    return fit;
   };
-  // What explains more beams is true; what is unusual must explain clearly more. Risers are tried first: taken for a
-  // backdrop behind open ones they would explain nearly as much.
+  // What explains more beams is true; what is unusual must explain them clearly better. Risers are tried first: taken
+  // for a backdrop behind open ones they would explain nearly as much.
   constexpr double kWell = 0.75;
-  constexpr double kClearlyMore = 0.03;
   const auto explained = [](const std::optional<BeamFit>& fit) { return fit ? fit->explained : 0.0; };
   bool open_risers = false;
   std::optional<BeamFit> best = fit_as(false, true);
@@ -280,9 +310,9 @@ std::optional<BeamFit> fit_beams(const StairCorridor& corridor, const BeamFitSta
     open_risers = explained(open) > explained(best);
     if (open_risers) best = std::move(open);
   }
-  if (start.offsets.empty() || (explained(best) > kWell && !are_irregular(best->offsets))) return best;
+  if (start.offsets.empty()) return best;
   std::optional<BeamFit> irregular = fit_as(open_risers, false);
-  return explained(irregular) > explained(best) + kClearlyMore ? irregular : best;
+  return irregular && (!best || is_clearly_better(*irregular, *best)) ? irregular : best;
 }
 
 }  // namespace stairway::detect

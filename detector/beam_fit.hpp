@@ -37,6 +37,7 @@ struct BeamFitStart {
 struct BeamFit {
   StairModel model;
   FitSigmas sigmas;
+  FitSigmas even_sigmas;            ///< what they were if steps were even: how well beams tell the model
   std::vector<StepOffset> offsets;  ///< of every step from the model
   double spot_rad = 0.0;            ///< full angle of the spot that explains the mixed pixels best
   double misfit = 1.0;              ///< root of chi^2 per beam

@@ -7,6 +7,7 @@
 
 #include "detector/beam_fit.hpp"
 #include "detector/flight_ends.hpp"
+#include "detector/moved_flight.hpp"
 #include "detector/statistics.hpp"
 #include "detector/step_ends.hpp"
 #include "detector/step_fit.hpp"
@@ -165,7 +166,7 @@ class JointFitter {
   void fit_steps() {
     const StepFit fit = fit_to_steps(fit_.model, prior_, has_risers(), steps_);
     fit_.model = fit.model;
-    fit_.sigmas = fit.sigmas;
+    fit_.sigmas = fit_.even_sigmas = fit.sigmas;
     biases_ = fit.biases;
   }
 
@@ -187,21 +188,43 @@ class JointFitter {
       fit_.offsets.clear();  // what steps measured one by one is off by more than steps are
       return;
     }
-    // Few beams may be left to explain; those must then lie the better.
     constexpr double kHardlyExplained = 0.4;
-    constexpr double kPoor = 1.25;
-    fit_.is_contradicted = beams->explained < kHardlyExplained && beams->misfit > kPoor;
-    fit_.model = beams->model;
-    fit_.sigmas = beams->sigmas;
+    const bool explains_little = beams->explained < kHardlyExplained;
+    if (explains_little && !has_risers()) {
+      // Through an open flight, past balusters, most beams meet other things; what few are left may lead astray.
+      fit_.offsets.clear();
+      find_ends(start, as_measured(start));
+    } else {
+      // Few beams may be left to explain; those must then lie the better.
+      constexpr double kPoor = 1.25;
+      fit_.is_contradicted = explains_little && beams->misfit > kPoor;
+      take_over(*beams);
+      find_ends(start, beams->shape);
+    }
+  }
+
+  static StairProfileShape as_measured(const BeamFitStart& start) {
+    const FlightBase base{
+        .model = start.model, .first = start.first, .open_risers = true, .from_above = start.from_above};
+    return unmoved(base, start.last - start.first + 1, {}, 0.5 * start.spot_rad).shape(base);
+  }
+
+  void take_over(const BeamFit& beams) {
     constexpr double kMostExplained = 0.6;
-    fit_.offsets = beams->offsets;
-    if (beams->explained < kMostExplained && !are_irregular(fit_.offsets, true)) fit_.offsets.clear();
+    fit_.model = beams.model;
+    fit_.sigmas = beams.sigmas;
+    fit_.even_sigmas = beams.even_sigmas;
+    fit_.offsets = beams.offsets;
+    if (beams.explained < kMostExplained && !are_irregular(fit_.offsets, true)) fit_.offsets.clear();
     measure(0);
+  }
+
+  void find_ends(const BeamFitStart& start, const StairProfileShape& shape) {
     const StepFrame frame = fit_.model.step(start.first);
     const StepPoint sensor = frame.to_step(*corridor_.sensor());
-    flight_ends_ = find_flight_ends(corridor_, frame, sensor, visible_faces(beams->shape, {sensor.u, sensor.z}),
-                                    fit_.sides, {0.5 * start.spot_rad, options_.beams.pulse_separation_m},
-                                    start.range_sigma_m, start.from_above ? start.last - start.first : -1);
+    flight_ends_ = find_flight_ends(corridor_, frame, sensor, visible_faces(shape, {sensor.u, sensor.z}), fit_.sides,
+                                    {0.5 * start.spot_rad, options_.beams.pulse_separation_m}, start.range_sigma_m,
+                                    start.from_above ? start.last - start.first : -1);
     fit_sides();
   }
 
@@ -218,6 +241,7 @@ class JointFitter {
     std::vector<double> right_limits;
     std::vector<double> left_limits;
     for (const StepMeasurement& step : steps_) {
+      if (is_ground(step.number)) continue;  // it goes on beside a descent
       if (step.right_end) rights.push_back(*step.right_end);
       if (step.left_end) lefts.push_back(*step.left_end);
       if (step.right_limit) right_limits.push_back(*step.right_limit);
@@ -287,7 +311,9 @@ std::string broken_rule(const JointFit& fit, const StepLimits& limits, const Con
   if (std::string rule = broken_rule(fit.model, fit.seen_steps, confirmation); !rule.empty()) return rule;
   if (!limits.allow(nearest_to(limits, fit))) return "step-size-out-of-range";
   if (fit.seen_steps < options.min_seen_share * (fit.last - fit.first + 1)) return "steps-missing";
-  if (std::max(fit.sigmas.height_m, fit.sigmas.depth_m) > options.max_sigma_m) return "too-uncertain";
+  // Of uneven steps each is told by itself.
+  const FitSigmas& sigmas = are_irregular(fit.offsets) ? fit.even_sigmas : fit.sigmas;
+  if (std::max(sigmas.height_m, sigmas.depth_m) > options.max_sigma_m) return "too-uncertain";
   if (fit.is_contradicted) return "beams-disagree";
   return {};
 }

@@ -30,6 +30,7 @@ struct JointFitOptions {
 struct JointFit {
   StairModel model;
   FitSigmas sigmas;
+  FitSigmas even_sigmas;       ///< what they were if steps were even: how well beams tell the model
   Interval sides;              ///< along left() from the middle line of the model, which is its middle [m]
   double sides_sigma_m = 0.0;  ///< of its length
   /// Where the first free lines of sight pass beyond the ends, whatever hides the ends themselves.

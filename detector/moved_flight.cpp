@@ -67,8 +67,8 @@ MovedFlight unmoved(const FlightBase& base, int steps, const std::vector<StepOff
   for (const StepOffset& offset : offsets) {
     const int i = offset.number - base.first;
     if (i < 0 || i >= steps) continue;
-    if (offset.ahead) flight.ahead[i] = std::clamp(offset.ahead->value, -kSurelyUneven_m, kSurelyUneven_m);
-    if (offset.up) flight.up[i] = std::clamp(offset.up->value, -kSurelyUneven_m, kSurelyUneven_m);
+    if (offset.ahead) flight.ahead[i] = std::clamp(offset.ahead->value, -kMostUneven_m, kMostUneven_m);
+    if (offset.up) flight.up[i] = std::clamp(offset.up->value, -kMostUneven_m, kMostUneven_m);
   }
   flight.unknowns = usual_flight(spot_radius_rad);
   if (base.open_risers && base.model.tread_thickness_m > kLeastThickness_m)

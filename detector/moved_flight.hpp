@@ -19,7 +19,8 @@ using FlightUnknowns = Eigen::Matrix<double, kFlightUnknowns, 1>;
 
 /// Of what size changes are to be compared: metres, but angles seen over some metres.
 inline constexpr std::array<double, kFlightUnknowns> kFlightScale{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.2};
-inline constexpr double kSurelyUneven_m = 0.03;  ///< by which a step may be off its place
+inline constexpr double kSurelyUneven_m = 0.03;  ///< by which a step may be off its place, one standard deviation
+inline constexpr double kMostUneven_m = 0.06;    ///< what is farther off was not measured on the step
 
 /// What stays while a flight is fitted.
 struct FlightBase {

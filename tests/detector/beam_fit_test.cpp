@@ -94,6 +94,42 @@ TEST(BeamFit, finds_the_one_step_that_is_off) {
   EXPECT_NEAR(fit->offsets[3].up->value - 0.5 * (fit->offsets[2].up->value + fit->offsets[4].up->value), 0.009, 0.0015);
 }
 
+// The third step's front has gone where the beams drawn for even steps do not look.
+TEST(BeamFit, follows_steps_that_are_far_from_even) {
+  sim::StairSpec flight;
+  flight.height_offsets_m = {0.0, 0.02, -0.025, 0.03, -0.02, 0.0, 0.045, 0.01, -0.03, 0.0};
+  Seen seen = look_at(flight, 2.0);
+  for (int i = 0; i < 10; ++i)
+    seen.start.offsets.push_back(
+        {.number = i, .up = Estimate{flight.height_offsets_m[static_cast<std::size_t>(i)] + 0.003, 0.002}});
+  const std::optional<BeamFit> fit = fit_beams(seen.corridor, seen.start, {});
+  ASSERT_TRUE(fit);
+  EXPECT_TRUE(are_irregular(fit->offsets));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 10; ++i) {
+    ASSERT_TRUE(fit->offsets[i].up) << "step " << i;
+    const double up = (fit->model.step(static_cast<double>(i)).nosing.z() + fit->offsets[i].up->value);
+    sum += std::abs(up - seen.room.truth.nosings[i].middle().z());
+  }
+  EXPECT_LT(sum / 10.0, 0.0015);
+}
+
+TEST(BeamFit, is_as_sure_of_the_model_however_uneven_the_steps) {
+  sim::StairSpec even;
+  sim::StairSpec uneven;
+  uneven.height_offsets_m = {0.0, 0.02, -0.025, 0.03, -0.02, 0.0, 0.025, 0.01, -0.03, 0.0};
+  const Seen of_even = look_at(even, 2.0);
+  const Seen of_uneven = look_at(uneven, 2.0);
+  BeamFitStart start = of_uneven.start;
+  for (int i = 0; i < 10; ++i)
+    start.offsets.push_back({.number = i, .up = Estimate{uneven.height_offsets_m[static_cast<std::size_t>(i)], 0.002}});
+  const std::optional<BeamFit> a = fit_beams(of_even.corridor, of_even.start, {});
+  const std::optional<BeamFit> b = fit_beams(of_uneven.corridor, start, {});
+  ASSERT_TRUE(a && b);
+  EXPECT_LT(b->even_sigmas.height_m, 3.0 * a->even_sigmas.height_m);
+  EXPECT_GT(b->sigmas.height_m, 5.0 * b->even_sigmas.height_m);
+}
+
 TEST(BeamFit, has_nothing_to_say_without_a_sensor_of_spirals_or_of_no_steps) {
   const Seen seen = look_at({}, 2.0);
   test::SimulatedRoom merged = seen.room;

@@ -53,7 +53,7 @@ TEST(MovedFlight, takes_offsets_of_its_steps_and_moves_single_ones) {
                                         {.number = 99, .up = Estimate{0.01, 0.001}, .ahead = std::nullopt}};
   const MovedFlight flight = unmoved(base, kSteps, offsets, kSpot_rad);
   EXPECT_EQ(flight.up[1], 0.012) << "step 0 is the second";
-  EXPECT_EQ(flight.up[2], kSurelyUneven_m) << "no step is off by 0.2 m";
+  EXPECT_EQ(flight.up[2], kMostUneven_m) << "no step is off by 0.2 m";
   EXPECT_EQ(flight.ahead[2], -0.004);
   const MovedFlight moved = flight.with_step_moved(kSteps + 3, 0.001);
   EXPECT_EQ(moved.up[3], 0.001);
