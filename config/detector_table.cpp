@@ -88,7 +88,8 @@ void add_detector_settings(std::vector<Entry>& table, detect::DetectorOptions& d
             "horizontal extent of a tread in the direction of ascent")
       .real("min_width", detector.plane_finder.min_width_m, kMillimetre, {10, 2000},
             "risers and treads that show less of their width are left out")
-      .on_off("find_edges", detector.plane_finder.find_edges, "also look for bars along the nosings of open treads")
+      .on_off("find_edges", detector.plane_finder.find_edges,
+              "also look for bars along the nosings of open treads, and for strips of treads below the floor")
       .real("max_edge_thickness", detector.plane_finder.max_edge_thickness_m, kMillimetre, {1, 1000},
             "extent of a tread's edge across its length")
       .real("min_edge_width", detector.plane_finder.min_edge_width_m, kMillimetre, {10, 2000},

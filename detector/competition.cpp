@@ -70,7 +70,7 @@ class Competition {
     Winner candidate{.graph = {}, .view = view_of(start.model)};
     candidate.graph =
         extend_graph(start.model, starting_sides(start, parts_), parts_, grid_, candidate.view, options_.extension);
-    if (const std::string rule = broken_rule(candidate.graph, confirmation_for(candidate.view)); !rule.empty()) {
+    if (const std::string rule = broken_rule(candidate.graph, confirmation()); !rule.empty()) {
       remember(rule, candidate.graph);
       return std::nullopt;
     }
@@ -78,18 +78,18 @@ class Competition {
     return candidate;
   }
 
-  // A descent shows two treads and then strips too narrow for planes. The joint fit looks for their points, and
+  // Two planes may be all that a descent or far boards show. The joint fit looks for the points of further steps, and
   // confirms.
-  ConfirmationOptions confirmation_for(View view) const {
+  ConfirmationOptions confirmation() const {
     ConfirmationOptions confirmation = options_.confirmation;
-    if (options_.strategy == Strategy::Joint && view == View::FromAbove) confirmation.min_steps = 2;
+    if (options_.strategy == Strategy::Joint) confirmation.min_steps = 2;
     return confirmation;
   }
 
   void optimise(Winner& winner) const {
     const StairFit fit = fit_stairway(winner.graph, parts_, winner.view);
     StairGraph extended = extend_graph(fit.model, winner.graph.sides, parts_, grid_, winner.view, options_.extension);
-    if (!is_free(extended) || !broken_rule(extended, confirmation_for(winner.view)).empty() ||
+    if (!is_free(extended) || !broken_rule(extended, confirmation()).empty() ||
         extended.seen_steps() < winner.graph.seen_steps())
       return;
     winner.graph = std::move(extended);

@@ -21,7 +21,7 @@ struct PlaneFinderOptions {
       0.40;                   ///< extent of a tread along its second eigenvector [m]; DIN 18065's 37 cm and a margin
   double min_width_m = 0.15;  ///< extent along the first eigenvector [m]; ours: narrower ones are posts and scraps
 
-  bool find_edges = true;                            ///< ours: also look for bars along the nosings
+  bool find_edges = true;  ///< ours: also look for bars along the nosings and strips of treads below the floor
   double max_edge_thickness_m = 0.15;                ///< extent of an edge across its length, in depth and height [m]
   double min_edge_width_m = 0.40;                    ///< its extent along the first eigenvector [m]
   double max_edge_tilt_rad = std::numbers::pi / 18;  ///< its first eigenvector against horizontal [rad]

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "detector/cloud_faults.hpp"
+#include "detector/level_strips.hpp"
 #include "detector/levelling.hpp"
 #include "detector/voxel_grid.hpp"
 
@@ -23,6 +24,8 @@ std::vector<StairPart> find_parts(const scan::PointCloud& cloud, const std::vect
       parts.push_back(*part);
     }
   }
+  if (options.find_edges)
+    for (const StairPart& strip : find_level_strips(cloud, regions, options)) parts.push_back(strip);
   return parts;
 }
 
