@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kMostSteps = 200;  // bounds the search beyond the ends
 constexpr double kNarrowest_m = 0.1;
-constexpr double kUnmeasuredEnd_m = 0.03;  // an end known from the parts alone
+constexpr double kUnmeasuredEnd_m = 0.03;   // an end known from the parts alone
+constexpr double kUncheckedSides_m = 0.08;  // a width that no beams confirm
 
 // The few steps in a row that most parts speak for.
 std::pair<int, int> best_supported(const StairGraph& graph) {
@@ -185,14 +186,15 @@ class JointFitter {
       // Of few points too few beams are left to say anything, and boards are easily seen past.
       constexpr std::size_t kEnough = 20000;
       fit_.is_contradicted = has_risers() && corridor_.points().size() > kEnough;
-      fit_.offsets.clear();  // what steps measured one by one is off by more than steps are
+      keep_to_steps();
+      fit_.sides_sigma_m = std::hypot(fit_.sides_sigma_m, kUncheckedSides_m);
       return;
     }
     constexpr double kHardlyExplained = 0.4;
     const bool explains_little = beams->explained < kHardlyExplained;
     if (explains_little && !has_risers()) {
       // Through an open flight, past balusters, most beams meet other things; what few are left may lead astray.
-      fit_.offsets.clear();
+      keep_to_steps();
       find_ends(start, as_measured(start));
     } else {
       // Few beams may be left to explain; those must then lie the better.
@@ -201,6 +203,18 @@ class JointFitter {
       take_over(*beams);
       find_ends(start, beams->shape);
     }
+  }
+
+  // Where no beams confirm them, edges may be off by a share of the spot, and single steps by more than steps are.
+  void keep_to_steps() {
+    constexpr double kSpotShare = 0.06;
+    const double distance_m = (fit_.model.step(fit_.first).nosing - *corridor_.sensor()).norm();
+    const double off_m = kSpotShare * options_.measurement.spot_rad * distance_m;
+    fit_.offsets.clear();
+    fit_.sigmas.height_m = std::hypot(fit_.sigmas.height_m, off_m);
+    fit_.sigmas.depth_m = std::hypot(fit_.sigmas.depth_m, off_m);
+    fit_.sigmas.heading_rad = std::hypot(fit_.sigmas.heading_rad, 2.0 * off_m / fit_.sides.length());
+    fit_.even_sigmas = fit_.sigmas;
   }
 
   static StairProfileShape as_measured(const BeamFitStart& start) {

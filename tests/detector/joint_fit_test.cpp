@@ -52,6 +52,27 @@ TEST(JointFit, comes_back_to_the_truth_from_a_graph_that_is_a_little_off) {
   }
 }
 
+// Their scatter alone would make steps that nothing confirms a tenth of that.
+TEST(JointFit, is_as_unsure_as_the_spot_is_wide_where_no_beams_confirm_the_steps) {
+  constexpr double kDistance_m = 1.5;
+  sim::StairSpec flight;
+  flight.open_risers = true;
+  const test::SimulatedRoom room = test::simulate(flight, kDistance_m, 0.0, 12.0);
+  StairGraph graph;
+  graph.model = model_of(room.truth);
+  graph.parts = {{2, 0}, {3, 1}, {4, 2}};
+  JointFitOptions options;
+  const std::optional<JointFit> confirmed = fit_jointly(room.cloud, graph, {-0.5, 0.5}, View::FromBelow, options);
+  options.beams.min_explained = 1.0;
+  const std::optional<JointFit> alone = fit_jointly(room.cloud, graph, {-0.5, 0.5}, View::FromBelow, options);
+  ASSERT_TRUE(confirmed && alone);
+  const double spot_m = options.measurement.spot_rad * kDistance_m;
+  EXPECT_GT(alone->sigmas.height_m, 0.05 * spot_m);
+  EXPECT_GT(alone->sigmas.depth_m, 0.05 * spot_m);
+  EXPECT_GT(alone->sides_sigma_m, confirmed->sides_sigma_m);
+  EXPECT_LT(confirmed->sigmas.height_m, 0.3 * alone->sigmas.height_m);
+}
+
 TEST(JointFit, has_nothing_to_fit_to_a_graph_without_parts_or_width) {
   const scan::PointCloud room = test::simulate_room(3, 2.0);
   StairGraph graph;
